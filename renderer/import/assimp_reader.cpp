@@ -17,6 +17,7 @@
 #include <absl/status/status.h>
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/mesh.h>
@@ -32,12 +33,14 @@
 #include "renderer/import/assimp_lights.h"
 #include "renderer/import/assimp_materials.h"
 #include "renderer/import/assimp_values.h"
+#include "renderer/import/collada_text.h"
 #include "renderer/import/gltf_extensions.h"
 #include "renderer/import/gltf_unpacking.h"
 #include "renderer/import/obj_textures.h"
 #include "renderer/import/polygon.h"
 #include "renderer/import/stl_length.h"
 #include "renderer/import/uri_name.h"
+#include "renderer/import/x3d_text.h"
 #include "renderer/mesh/mapped_file.h"
 
 namespace eyrie::import {
@@ -92,7 +95,8 @@ bool hasOwnMaterial(const aiMaterial& material) {
              std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME);
 }
 
-/// FBX alone says what its unit is, in centimetres, and Assimp hands it on without applying it.
+/// FBX says what its unit is, in centimetres, and Assimp hands it on without applying it. COLLADA's
+/// it applies; no other format has one.
 double metresPerUnitOf(const aiScene& scene, const AssimpFormat& format,
                        std::vector<std::string>& notes) {
     float centimetres = 0;
@@ -298,11 +302,31 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
     return std::move(result_);
 }
 
+/// Of the nodes of X3D that hold others and are passed over with all in them, those in a file.
+std::vector<std::string> x3dCaveats(std::string_view text) {
+    constexpr std::array<std::string_view, 8> kPassedOver = {
+        "Anchor",       "Billboard",     "Collision", "GeoLOD",
+        "GeoTransform", "HAnimHumanoid", "LOD",       "ProtoInstance"};
+    std::string found;
+    for (const std::string_view name : kPassedOver)
+        if (text.find(fmt::format("<{} ", name)) != std::string_view::npos ||
+            text.find(fmt::format("<{}>", name)) != std::string_view::npos)
+            found += fmt::format("{}{}", found.empty() ? "" : ", ", name);
+    if (found.empty())
+        return {};
+    return {
+        fmt::format("left out all that is in nodes of the kinds {}, which are not read: put it "
+                    "into Groups and Transforms",
+                    found)};
+}
+
 /// What Assimp is known to get wrong in a file, for TriangleMesh::notes.
 std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpFormat& format) {
     if (format.isGltf())
         return gltfCaveats(bytes);
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (format.extension == ".x3d")
+        return x3dCaveats(text);
     const bool isPlaced = text.find("\nloc ") != std::string_view::npos ||
                           text.find("\nrot ") != std::string_view::npos;
     if (!format.extension.starts_with(".ac") || !isPlaced)
@@ -350,6 +374,27 @@ std::string_view textOf(const mesh::MappedFile& file) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+/// X3D and COLLADA files, those that others include too, as Assimp understands them.
+class MendedFiles : public Assimp::DefaultIOSystem {
+public:
+    Assimp::IOStream* Open(const char* name, const char* mode) override {
+        const AssimpFormat* format = findAssimpFormat(name);
+        const absl::StatusOr<mesh::MappedFile> file = mesh::MappedFile::open(name);
+        if (format == nullptr || !isMended(*format) || !file.ok())
+            return DefaultIOSystem::Open(name, mode);
+        const std::string text = format->extension == ".x3d" ? x3dForAssimp(textOf(*file))
+                                                             : colladaForAssimp(textOf(*file));
+        auto bytes = std::make_unique<std::uint8_t[]>(text.size());
+        std::ranges::copy(text, bytes.get());
+        return std::make_unique<Assimp::MemoryIOStream>(bytes.release(), text.size(), true)
+            .release();  // which Assimp deletes
+    }
+
+    static bool isMended(const AssimpFormat& format) {
+        return format.extension == ".x3d" || format.extension == ".dae";
+    }
+};
+
 /// What Assimp reads instead of a file that it would take for another; nothing for others.
 absl::StatusOr<std::optional<std::string>> instead(const mesh::MappedFile& file,
                                                    const std::string& path,
@@ -382,6 +427,8 @@ absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& f
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);  // none made of bones
         if (format.isGltf())
             importer.SetIOHandler(std::make_unique<UriFiles>().release());  // which it deletes
+        if (MendedFiles::isMended(format))
+            importer.SetIOHandler(std::make_unique<MendedFiles>().release());
         ASSIGN_OR_RETURN(const aiScene* scene, parse(importer, path, format));
         if (scene != nullptr)
             return SceneMeshes(*scene, format).gather();

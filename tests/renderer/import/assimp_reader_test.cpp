@@ -429,7 +429,7 @@ TEST(AssimpReader, SaysThatTexturesAreNotMirrored) {
     const auto mesh = readWithAssimp(folder.file("m.gltf"));
     ASSERT_TRUE(mesh.ok()) << mesh.status();
     EXPECT_THAT(mesh->notes,
-                ElementsAre(HasSubstr("textures of 3 materials ought to be mirrored")));
+                testing::Contains(HasSubstr("textures of 3 materials ought to be mirrored")));
 }
 
 constexpr const char* kGltfWithABuffer =
