@@ -112,6 +112,29 @@ double metresPerUnitOf(const aiScene& scene, const AssimpFormat& format,
     return std::abs(centimetres - 100) < 1e-3F ? 1 : double{centimetres} / 100;
 }
 
+/// The axis of an FBX scene that one of its settings names, with its sign; Assimp hands them on
+/// without applying them.
+glm::dvec3 fbxAxis(const aiMetadata& settings, const std::string& name) {
+    std::int32_t axis = -1, sign = 1;
+    glm::dvec3 result(0);
+    if (settings.Get(name, axis) && settings.Get(name + "Sign", sign) && axis >= 0 && axis < 3)
+        result[axis] = sign < 0 ? -1 : 1;
+    return result;
+}
+
+/// So that z is up, and y away from who looks from the front.
+glm::dmat4 zUpFromScene(const aiScene& scene, const AssimpFormat& format) {
+    if (!format.isYUp)
+        return glm::dmat4(1);
+    if (format.extension != ".fbx" || scene.mMetaData == nullptr)
+        return kZUpFromYUp;
+    const glm::dmat3 sceneFromZUp(fbxAxis(*scene.mMetaData, "CoordAxis"),
+                                  -fbxAxis(*scene.mMetaData, "FrontAxis"),
+                                  fbxAxis(*scene.mMetaData, "UpAxis"));
+    const bool areAxes = glm::determinant(sceneFromZUp) != 0;
+    return areAxes ? glm::dmat4(glm::transpose(sceneFromZUp)) : kZUpFromYUp;
+}
+
 /// Gathers what the nodes of a scene show.
 class SceneMeshes {
 public:
@@ -264,7 +287,7 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
     };
     const double metresPerUnit = metresPerUnitOf(scene_, format_, result_.notes);
     const glm::dmat4 worldFromScene =
-        glm::scale(format_.isYUp ? kZUpFromYUp : glm::dmat4(1), glm::dvec3(metresPerUnit));
+        glm::scale(zUpFromScene(scene_, format_), glm::dvec3(metresPerUnit));
     std::vector<Placed> waiting;
     if (scene_.mRootNode != nullptr)
         waiting.push_back(

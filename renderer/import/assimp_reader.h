@@ -16,7 +16,8 @@ namespace eyrie::import {
 /// A format that Assimp reads and this project has tried.
 struct AssimpFormat {
     std::string_view extension;  ///< lower case, with its dot
-    bool isYUp;             ///< its models stand on the plane y = 0, in Assimp's hands at least
+    bool isYUp;  ///< its models stand on the plane y = 0, in Assimp's hands at least, but for FBX
+                 ///< that says otherwise
     bool hasLinearColours;  ///< not as displayed (sRGB)
     /// Where a material has a texture, it stands for the diffuse colour; otherwise both multiply.
     bool texturesReplaceColours;
