@@ -38,6 +38,7 @@
 #include "renderer/import/gltf_unpacking.h"
 #include "renderer/import/obj_textures.h"
 #include "renderer/import/polygon.h"
+#include "renderer/import/stl_colours.h"
 #include "renderer/import/stl_length.h"
 #include "renderer/import/uri_name.h"
 #include "renderer/import/x3d_text.h"
@@ -426,6 +427,8 @@ absl::StatusOr<std::optional<std::string>> instead(const mesh::MappedFile& file,
         return withFirstTextures(file.bytes());
     if (format.isGltf())
         return unpackGltf(file.bytes(), path);
+    if (format.extension == ".stl")
+        return stlForAssimp(file.bytes());
     return std::nullopt;
 }
 
@@ -436,7 +439,9 @@ absl::StatusOr<const aiScene*> parse(Assimp::Importer& importer, const std::stri
     ASSIGN_OR_RETURN(const std::optional<std::string> text, instead(file, path, format));
     if (text)
         return importer.ReadFileFromMemory(text->data(), text->size(), 0,
-                                           format.isGltf() ? "glb" : "ac");
+                                           format.isGltf()              ? "glb"
+                                           : format.extension == ".stl" ? "stl"
+                                                                        : "ac");
     const aiScene* scene = importer.ReadFile(path, 0);
     if (scene != nullptr && format.extension == ".obj")
         applyObjTextures(path, textOf(file), *scene);
