@@ -148,13 +148,16 @@ std::int32_t AssimpMaterials::readTexture(const aiMaterial& material, Entry& ent
     const aiTexture* own = scene_.GetEmbeddedTexture(path.C_Str());
     TextureSource source =
         own != nullptr ? embedded(*own, path.C_Str()) : TextureSource{path.C_Str(), {}, 0};
-    source.flags = (modes[0] == aiTextureMapMode_Clamp ? mesh::kClampsU : 0) |
-                   (modes[1] == aiTextureMapMode_Clamp ? mesh::kClampsV : 0);
+    const auto ends = [](aiTextureMapMode mode) {
+        return mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal;
+    };
+    source.flags = (ends(modes[0]) ? mesh::kClampsU : 0) | (ends(modes[1]) ? mesh::kClampsV : 0);
     const auto known = std::find(textures_.begin(), textures_.end(), source);
     const auto number = static_cast<std::int32_t>(known - textures_.begin());
     if (known == textures_.end())
         textures_.push_back(std::move(source));
     mirrored_ += std::ranges::count(modes, aiTextureMapMode_Mirror) > 0 ? 1 : 0;
+    decals_ += std::ranges::count(modes, aiTextureMapMode_Decal) > 0 ? 1 : 0;
     return number;
 }
 
@@ -271,6 +274,11 @@ void AssimpMaterials::moveTo(TriangleMesh& mesh) {
             fmt::format("textures of {} materials ought to be mirrored where they repeat, and "
                         "repeat as they are",
                         mirrored_));
+    if (decals_ > 0)
+        mesh.notes.push_back(
+            fmt::format("textures of {} materials ought to leave free what is beyond their edges, "
+                        "and cover it with these",
+                        decals_));
     if (!areAny())
         return;
     mesh.materials = std::move(materials_);

@@ -66,6 +66,7 @@ private:
     std::size_t withOthers_ = 0;   ///< materials with textures that are left out
     std::size_t withOpacity_ = 0;  ///< of these, those where one is the opacity
     std::size_t mirrored_ = 0;     ///< materials whose texture is to be mirrored where it repeats
+    std::size_t decals_ = 0;       ///< materials whose texture is to cover its own place only
     std::vector<Entry> entries_;
     std::vector<mesh::Material> materials_{mesh::Material()};
     std::vector<TextureSource> textures_;

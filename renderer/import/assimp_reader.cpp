@@ -344,6 +344,18 @@ std::vector<std::string> x3dCaveats(std::string_view text) {
                     found)};
 }
 
+/// Assimp reads Maya's way to say so, and not the format's.
+std::vector<std::string> colladaCaveats(std::string_view text) {
+    for (const std::string_view mode : {"CLAMP", "BORDER", "MIRROR", "NONE"})
+        if (text.find(fmt::format(">{}</wrap_", mode)) != std::string_view::npos)
+            return {
+                fmt::format("textures repeat, also those that ought not ({} of wrap_s or "
+                            "wrap_t): export the mesh as .glb if they show where they should "
+                            "not",
+                            mode)};
+    return {};
+}
+
 /// What Assimp is known to get wrong in a file, for TriangleMesh::notes.
 std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpFormat& format) {
     if (format.isGltf())
@@ -351,6 +363,8 @@ std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpF
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (format.extension == ".x3d")
         return x3dCaveats(text);
+    if (format.extension == ".dae")
+        return colladaCaveats(text);
     const bool isPlaced = text.find("\nloc ") != std::string_view::npos ||
                           text.find("\nrot ") != std::string_view::npos;
     if (!format.extension.starts_with(".ac") || !isPlaced)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <bit>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -243,6 +245,56 @@ TEST(TexturesOfCollada, LieByTheCoordinatesThatTheirNamesAreBoundTo) {
     const TriangleMesh guessed = read("m.dae", collada("CHANNEL7", "", 0, 1));
     expectPlaces(guessed, kPlain);
     EXPECT_THAT(guessed.notes, IsEmpty());
+}
+
+TEST(TexturesOfCollada, AreSaidToRepeatWhereTheyOughtNot) {
+    std::string text = collada("UV0", "", 0, 1);
+    EXPECT_THAT(read("m.dae", text).notes, IsEmpty());
+    text.insert(text.find("</sampler2D>"), "<wrap_s>WRAP</wrap_s><wrap_t>CLAMP</wrap_t>");
+    EXPECT_THAT(read("m.dae", text).notes, ElementsAre(HasSubstr("CLAMP of wrap_s or wrap_t")));
+}
+
+/// A chunk of a 3DS file: its number, its length and what it holds.
+std::string chunk(int number, const std::string& content) {
+    const std::size_t size = content.size() + 6;
+    std::string header = {static_cast<char>(number & 0xFF), static_cast<char>(number >> 8)};
+    for (int shift = 0; shift < 32; shift += 8) header += static_cast<char>((size >> shift) & 0xFF);
+    return header + content;
+}
+
+std::string floats(std::initializer_list<float> values) {
+    std::string bytes;
+    for (const float value : values) {
+        const auto own = std::bit_cast<std::array<char, 4>>(value);
+        bytes.append(own.data(), own.size());
+    }
+    return bytes;
+}
+
+/// A texture map with flags for how it is tiled: 2 to be mirrored, 16 not to be.
+std::string tiled3ds(char flags) {
+    const std::string texture =
+        chunk(0xA300, std::string("w.png\0", 6)) + chunk(0xA351, {flags, '\0'});
+    const std::string material =
+        chunk(0xAFFF, chunk(0xA000, std::string("m\0", 2)) + chunk(0xA200, texture));
+    const std::string faces =
+        std::string("\1\0\0\0\1\0\2\0\7\0", 10) + chunk(0x4130, std::string("m\0\1\0\0\0", 6));
+    const std::string mesh =
+        chunk(0x4110, std::string("\3\0", 2) + floats({0, 0, 0, 1, 0, 0, 0, 1, 0})) +
+        chunk(0x4140, std::string("\3\0", 2) + floats({0, 0, 1, 0, 0, 1})) + chunk(0x4120, faces);
+    const std::string object = chunk(0x4000, std::string("o\0", 2) + chunk(0x4100, mesh));
+    return chunk(0x4D4D, chunk(0x3D3D, material + object));
+}
+
+TEST(TexturesOf3ds, EndAtTheirEdgesWhereTheyAreNotTiled) {
+    const TriangleMesh tiled = read("m.3ds", tiled3ds(0));
+    expectPlaces(tiled, kPlain);
+    EXPECT_EQ(tiled.textures[0].flags, 0U);
+    EXPECT_THAT(tiled.notes, IsEmpty());
+    const TriangleMesh decal = read("m.3ds", tiled3ds(16));
+    expectPlaces(decal, kPlain);
+    EXPECT_EQ(decal.textures[0].flags, mesh::kClampsU | mesh::kClampsV);
+    EXPECT_THAT(decal.notes, ElementsAre(HasSubstr("ought to leave free")));
 }
 
 TEST(ColladaText, StaysWhereNothingIsBound) {
