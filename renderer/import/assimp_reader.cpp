@@ -15,9 +15,8 @@
 #include <vector>
 
 #include <absl/status/status.h>
-#include <assimp/DefaultIOSystem.h>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
-#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/mesh.h>
@@ -30,18 +29,17 @@
 #include <glm/matrix.hpp>
 
 #include "fabric/status.h"
+#include "renderer/import/assimp_caveats.h"
+#include "renderer/import/assimp_files.h"
 #include "renderer/import/assimp_lights.h"
 #include "renderer/import/assimp_materials.h"
 #include "renderer/import/assimp_values.h"
-#include "renderer/import/collada_text.h"
 #include "renderer/import/gltf_extensions.h"
 #include "renderer/import/gltf_unpacking.h"
 #include "renderer/import/obj_textures.h"
 #include "renderer/import/polygon.h"
 #include "renderer/import/stl_colours.h"
 #include "renderer/import/stl_length.h"
-#include "renderer/import/uri_name.h"
-#include "renderer/import/x3d_text.h"
 #include "renderer/mesh/mapped_file.h"
 
 namespace eyrie::import {
@@ -326,54 +324,6 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
     return std::move(result_);
 }
 
-/// Of the nodes of X3D that hold others and are passed over with all in them, those in a file.
-std::vector<std::string> x3dCaveats(std::string_view text) {
-    constexpr std::array<std::string_view, 8> kPassedOver = {
-        "Anchor",       "Billboard",     "Collision", "GeoLOD",
-        "GeoTransform", "HAnimHumanoid", "LOD",       "ProtoInstance"};
-    std::string found;
-    for (const std::string_view name : kPassedOver)
-        if (text.find(fmt::format("<{} ", name)) != std::string_view::npos ||
-            text.find(fmt::format("<{}>", name)) != std::string_view::npos)
-            found += fmt::format("{}{}", found.empty() ? "" : ", ", name);
-    if (found.empty())
-        return {};
-    return {
-        fmt::format("left out all that is in nodes of the kinds {}, which are not read: put it "
-                    "into Groups and Transforms",
-                    found)};
-}
-
-/// Assimp reads Maya's way to say so, and not the format's.
-std::vector<std::string> colladaCaveats(std::string_view text) {
-    for (const std::string_view mode : {"CLAMP", "BORDER", "MIRROR", "NONE"})
-        if (text.find(fmt::format(">{}</wrap_", mode)) != std::string_view::npos)
-            return {
-                fmt::format("textures repeat, also those that ought not ({} of wrap_s or "
-                            "wrap_t): export the mesh as .glb if they show where they should "
-                            "not",
-                            mode)};
-    return {};
-}
-
-/// What Assimp is known to get wrong in a file, for TriangleMesh::notes.
-std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpFormat& format) {
-    if (format.isGltf())
-        return gltfCaveats(bytes);
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (format.extension == ".x3d")
-        return x3dCaveats(text);
-    if (format.extension == ".dae")
-        return colladaCaveats(text);
-    const bool isPlaced = text.find("\nloc ") != std::string_view::npos ||
-                          text.find("\nrot ") != std::string_view::npos;
-    if (!format.extension.starts_with(".ac") || !isPlaced)
-        return {};
-    return {
-        "objects are put where their own 'loc' says; that of groups around them, and 'rot' "
-        "beside 'loc', are not taken right: export it in another format if parts are misplaced"};
-}
-
 /// An AC3D file without the further textures that a race track's surfaces have (skid marks,
 /// shadows): of several Assimp takes the last.
 std::string withFirstTextures(std::span<const std::byte> bytes) {
@@ -392,46 +342,10 @@ std::string withFirstTextures(std::span<const std::byte> bytes) {
     return kept;
 }
 
-/// Files as glTF's URIs name them, which Assimp takes for plain names.
-class UriFiles : public Assimp::DefaultIOSystem {
-public:
-    bool Exists(const char* name) const override {
-        return DefaultIOSystem::Exists(name) ||
-               DefaultIOSystem::Exists(withoutPercents(name).c_str());
-    }
-
-    Assimp::IOStream* Open(const char* name, const char* mode) override {
-        return DefaultIOSystem::Exists(name)
-                   ? DefaultIOSystem::Open(name, mode)
-                   : DefaultIOSystem::Open(withoutPercents(name).c_str(), mode);
-    }
-};
-
 std::string_view textOf(const mesh::MappedFile& file) {
     const auto bytes = file.bytes();
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
-
-/// X3D and COLLADA files, those that others include too, as Assimp understands them.
-class MendedFiles : public Assimp::DefaultIOSystem {
-public:
-    Assimp::IOStream* Open(const char* name, const char* mode) override {
-        const AssimpFormat* format = findAssimpFormat(name);
-        const absl::StatusOr<mesh::MappedFile> file = mesh::MappedFile::open(name);
-        if (format == nullptr || !isMended(*format) || !file.ok())
-            return DefaultIOSystem::Open(name, mode);
-        const std::string text = format->extension == ".x3d" ? x3dForAssimp(textOf(*file))
-                                                             : colladaForAssimp(textOf(*file));
-        auto bytes = std::make_unique<std::uint8_t[]>(text.size());
-        std::ranges::copy(text, bytes.get());
-        return std::make_unique<Assimp::MemoryIOStream>(bytes.release(), text.size(), true)
-            .release();  // which Assimp deletes
-    }
-
-    static bool isMended(const AssimpFormat& format) {
-        return format.extension == ".x3d" || format.extension == ".dae";
-    }
-};
 
 /// What Assimp reads instead of a file that it would take for another; nothing for others.
 absl::StatusOr<std::optional<std::string>> instead(const mesh::MappedFile& file,
@@ -467,10 +381,7 @@ absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& f
         Assimp::Importer importer;
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, 0);  // this file alone
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);  // none made of bones
-        if (format.isGltf())
-            importer.SetIOHandler(std::make_unique<UriFiles>().release());  // which it deletes
-        if (MendedFiles::isMended(format))
-            importer.SetIOHandler(std::make_unique<MendedFiles>().release());
+        importer.SetIOHandler(assimpFiles(format).release());                 // which it deletes
         ASSIGN_OR_RETURN(const aiScene* scene, parse(importer, path, format));
         if (scene != nullptr)
             return SceneMeshes(*scene, format).gather();
