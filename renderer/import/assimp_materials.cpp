@@ -13,19 +13,28 @@
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
 #include <fmt/format.h>
+#include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
 
 namespace eyrie::import {
 namespace {
 
-/// As Assimp's own step does it (TextureTransform.cpp): scaled, turned and shifted, v upwards.
-glm::dmat3 matrixOf(const aiUVTransform& transform) {
-    const double c = std::cos(double{transform.mRotation});
-    const double s = std::sin(double{transform.mRotation});
+/// Where places come to, v upwards. What an aiUVTransform means depends on the format, whatever
+/// Assimp's own step makes of it (TextureTransform.cpp: scaled and turned about the middle).
+///
+/// Shifted, turned counter-clockwise and scaled is X3D's (ISO/IEC 19775-1, 18.4.8; its centre is in
+/// the shift, x3d_text.h), and what OBJ's has been brought to. AC3D's shift comes last, as in the
+/// loader that its author gives away. FBX's angles are in degrees. In which order FBX, 3DS, ASE,
+/// COB and what Maya adds to COLLADA shift, turn and scale, and about what, is written down
+/// nowhere, and programs disagree: they are taken as X3D's.
+glm::dmat3 matrixOf(const aiUVTransform& transform, std::string_view extension) {
+    const double unit = extension == ".fbx" ? glm::radians(1.0) : 1;
+    const double c = std::cos(unit * double{transform.mRotation});
+    const double s = std::sin(unit * double{transform.mRotation});
     const glm::dmat3 scale(transform.mScaling.x, 0, 0, 0, transform.mScaling.y, 0, 0, 0, 1);
     const glm::dmat3 turn(c, s, 0, -s, c, 0, 0, 0, 1);
     const glm::dmat3 shift(1, 0, 0, 0, 1, 0, transform.mTranslation.x, transform.mTranslation.y, 1);
-    return scale * turn * shift;
+    return extension.starts_with(".ac") ? shift * scale * turn : scale * turn * shift;
 }
 
 /// That of glTF's KHR_texture_transform: scaled, turned counter-clockwise as seen with v downwards,
@@ -123,23 +132,32 @@ std::uint16_t AssimpMaterials::number(const mesh::Material& material) {
 std::int32_t AssimpMaterials::readTexture(const aiMaterial& material, Entry& entry) {
     aiString path;
     aiTextureMapMode modes[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
-    if (material.GetTexture(aiTextureType_DIFFUSE, 0, &path, nullptr, &entry.channel, nullptr,
+    aiTextureMapping mapping = aiTextureMapping_UV;
+    if (material.GetTexture(aiTextureType_DIFFUSE, 0, &path, &mapping, &entry.channel, nullptr,
                             nullptr, modes) != AI_SUCCESS ||
         path.length == 0 || std::string_view(path.C_Str()).starts_with("$texture_dummy"))
         return -1;  // Quake's formats name none
+    entry.isProjected = mapping != aiTextureMapping_UV;
     aiUVTransform transform;
     if (material.Get(AI_MATKEY_UVTRANSFORM_DIFFUSE(0), transform) == AI_SUCCESS)
-        entry.placeFromSource = format_.isGltf() ? gltfMatrixOf(transform) : matrixOf(transform);
+        entry.placeFromSource =
+            format_.isGltf() ? gltfMatrixOf(transform) : matrixOf(transform, format_.extension);
+    if (format_.extension == ".x3d")  // which hands on as the mode whether they repeat
+        for (aiTextureMapMode& mode : modes)
+            mode = mode == aiTextureMapMode_Wrap ? aiTextureMapMode_Clamp : aiTextureMapMode_Wrap;
     const aiTexture* own = scene_.GetEmbeddedTexture(path.C_Str());
     TextureSource source =
         own != nullptr ? embedded(*own, path.C_Str()) : TextureSource{path.C_Str(), {}, 0};
-    source.flags = (modes[0] == aiTextureMapMode_Clamp ? mesh::kClampsU : 0) |
-                   (modes[1] == aiTextureMapMode_Clamp ? mesh::kClampsV : 0);
+    const auto ends = [](aiTextureMapMode mode) {
+        return mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal;
+    };
+    source.flags = (ends(modes[0]) ? mesh::kClampsU : 0) | (ends(modes[1]) ? mesh::kClampsV : 0);
     const auto known = std::find(textures_.begin(), textures_.end(), source);
     const auto number = static_cast<std::int32_t>(known - textures_.begin());
     if (known == textures_.end())
         textures_.push_back(std::move(source));
     mirrored_ += std::ranges::count(modes, aiTextureMapMode_Mirror) > 0 ? 1 : 0;
+    decals_ += std::ranges::count(modes, aiTextureMapMode_Decal) > 0 ? 1 : 0;
     return number;
 }
 
@@ -186,13 +204,22 @@ const AssimpMaterials::Entry* AssimpMaterials::find(const aiMesh& mesh) const {
     return mesh.mMaterialIndex < entries_.size() ? &entries_[mesh.mMaterialIndex] : nullptr;
 }
 
+/// Of COLLADA, where a mesh has not got what the material names, its first, as Assimp guesses by a
+/// digit in the name.
+const aiVector3D* AssimpMaterials::placesOf(const aiMesh& mesh, const Entry& entry) const {
+    const bool isGuess = format_.extension == ".dae" || format_.extension == ".zae";
+    if (entry.isProjected)
+        return nullptr;
+    if (mesh.HasTextureCoords(entry.channel))
+        return mesh.mTextureCoords[entry.channel];
+    return isGuess ? mesh.mTextureCoords[0] : nullptr;
+}
+
 std::uint16_t AssimpMaterials::numberOf(const aiMesh& mesh) const {
     const Entry* entry = find(mesh);
     if (entry == nullptr)
         return 0;
-    const bool hasPlaces = entry->channel < AI_MAX_NUMBER_OF_TEXTURECOORDS &&
-                           mesh.mTextureCoords[entry->channel] != nullptr;
-    return hasPlaces ? entry->number : entry->withoutImage;
+    return placesOf(mesh, *entry) != nullptr ? entry->number : entry->withoutImage;
 }
 
 aiColor4D AssimpMaterials::colourOf(const aiMesh& mesh) const {
@@ -210,7 +237,7 @@ glm::vec2 AssimpMaterials::textureCoordinates(const aiMesh& mesh, unsigned int v
     if (!materials_[numberOf(mesh)].hasImage())
         return glm::vec2(0);
     const Entry& entry = *find(mesh);
-    const aiVector3D& source = mesh.mTextureCoords[entry.channel][vertex];
+    const aiVector3D& source = placesOf(mesh, entry)[vertex];
     const glm::dvec3 place = entry.placeFromSource * glm::dvec3(source.x, source.y, 1);
     return {static_cast<float>(place.x), static_cast<float>(1 - place.y)};
 }
@@ -231,11 +258,27 @@ void AssimpMaterials::moveTo(TriangleMesh& mesh) {
                               "give the opacity as the alpha of the colour's image",
                               withOpacity_)
                 : ""));
+    const std::span meshes(scene_.mMeshes, scene_.mNumMeshes);
+    const auto withoutPlaces = std::ranges::count_if(meshes, [this](const aiMesh* one) {
+        const Entry* entry = find(*one);
+        return entry != nullptr && entry->number != entry->withoutImage &&
+               placesOf(*one, *entry) == nullptr;
+    });
+    if (withoutPlaces > 0)
+        mesh.notes.push_back(
+            fmt::format("left out the textures of {} of {} meshes, which have no texture "
+                        "coordinates: bake projections into a UV map",
+                        withoutPlaces, meshes.size()));
     if (mirrored_ > 0)
         mesh.notes.push_back(
             fmt::format("textures of {} materials ought to be mirrored where they repeat, and "
                         "repeat as they are",
                         mirrored_));
+    if (decals_ > 0)
+        mesh.notes.push_back(
+            fmt::format("textures of {} materials ought to leave free what is beyond their edges, "
+                        "and cover it with these",
+                        decals_));
     if (!areAny())
         return;
     mesh.materials = std::move(materials_);

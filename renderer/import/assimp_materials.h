@@ -43,10 +43,13 @@ private:
         std::uint16_t withoutImage = 0;  ///< for meshes without texture coordinates
         bool isOpaque = true;
         unsigned int channel = 0;  ///< of texture coordinates
+        bool isProjected = false;  ///< onto meshes, whatever coordinates these have
         glm::dmat3 placeFromSource{1.0};
     };
 
     const Entry* find(const aiMesh& mesh) const;
+    /// On its texture, a place for each vertex; null where the mesh has none.
+    const aiVector3D* placesOf(const aiMesh& mesh, const Entry& entry) const;
     Entry read(const aiMaterial& material);
     void countLeftOut(const aiMaterial& material);
     std::int32_t readTexture(const aiMaterial& material, Entry& entry);
@@ -63,6 +66,7 @@ private:
     std::size_t withOthers_ = 0;   ///< materials with textures that are left out
     std::size_t withOpacity_ = 0;  ///< of these, those where one is the opacity
     std::size_t mirrored_ = 0;     ///< materials whose texture is to be mirrored where it repeats
+    std::size_t decals_ = 0;       ///< materials whose texture is to cover its own place only
     std::vector<Entry> entries_;
     std::vector<mesh::Material> materials_{mesh::Material()};
     std::vector<TextureSource> textures_;

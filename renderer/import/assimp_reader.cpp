@@ -15,7 +15,7 @@
 #include <vector>
 
 #include <absl/status/status.h>
-#include <assimp/DefaultIOSystem.h>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/material.h>
@@ -29,6 +29,8 @@
 #include <glm/matrix.hpp>
 
 #include "fabric/status.h"
+#include "renderer/import/assimp_caveats.h"
+#include "renderer/import/assimp_files.h"
 #include "renderer/import/assimp_lights.h"
 #include "renderer/import/assimp_materials.h"
 #include "renderer/import/assimp_values.h"
@@ -36,8 +38,8 @@
 #include "renderer/import/gltf_unpacking.h"
 #include "renderer/import/obj_textures.h"
 #include "renderer/import/polygon.h"
+#include "renderer/import/stl_colours.h"
 #include "renderer/import/stl_length.h"
-#include "renderer/import/uri_name.h"
 #include "renderer/mesh/mapped_file.h"
 
 namespace eyrie::import {
@@ -92,7 +94,8 @@ bool hasOwnMaterial(const aiMaterial& material) {
              std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME);
 }
 
-/// FBX alone says what its unit is, in centimetres, and Assimp hands it on without applying it.
+/// FBX says what its unit is, in centimetres, and Assimp hands it on without applying it. COLLADA's
+/// it applies; no other format has one.
 double metresPerUnitOf(const aiScene& scene, const AssimpFormat& format,
                        std::vector<std::string>& notes) {
     float centimetres = 0;
@@ -106,6 +109,29 @@ double metresPerUnitOf(const aiScene& scene, const AssimpFormat& format,
         return 1;
     }
     return std::abs(centimetres - 100) < 1e-3F ? 1 : double{centimetres} / 100;
+}
+
+/// The axis of an FBX scene that one of its settings names, with its sign; Assimp hands them on
+/// without applying them.
+glm::dvec3 fbxAxis(const aiMetadata& settings, const std::string& name) {
+    std::int32_t axis = -1, sign = 1;
+    glm::dvec3 result(0);
+    if (settings.Get(name, axis) && settings.Get(name + "Sign", sign) && axis >= 0 && axis < 3)
+        result[axis] = sign < 0 ? -1 : 1;
+    return result;
+}
+
+/// So that z is up, and y away from who looks from the front.
+glm::dmat4 zUpFromScene(const aiScene& scene, const AssimpFormat& format) {
+    if (!format.isYUp)
+        return glm::dmat4(1);
+    if (format.extension != ".fbx" || scene.mMetaData == nullptr)
+        return kZUpFromYUp;
+    const glm::dmat3 sceneFromZUp(fbxAxis(*scene.mMetaData, "CoordAxis"),
+                                  -fbxAxis(*scene.mMetaData, "FrontAxis"),
+                                  fbxAxis(*scene.mMetaData, "UpAxis"));
+    const bool areAxes = glm::determinant(sceneFromZUp) != 0;
+    return areAxes ? glm::dmat4(glm::transpose(sceneFromZUp)) : kZUpFromYUp;
 }
 
 /// Gathers what the nodes of a scene show.
@@ -260,7 +286,7 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
     };
     const double metresPerUnit = metresPerUnitOf(scene_, format_, result_.notes);
     const glm::dmat4 worldFromScene =
-        glm::scale(format_.isYUp ? kZUpFromYUp : glm::dmat4(1), glm::dvec3(metresPerUnit));
+        glm::scale(zUpFromScene(scene_, format_), glm::dvec3(metresPerUnit));
     std::vector<Placed> waiting;
     if (scene_.mRootNode != nullptr)
         waiting.push_back(
@@ -298,20 +324,6 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
     return std::move(result_);
 }
 
-/// What Assimp is known to get wrong in a file, for TriangleMesh::notes.
-std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpFormat& format) {
-    if (format.isGltf())
-        return gltfCaveats(bytes);
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    const bool isPlaced = text.find("\nloc ") != std::string_view::npos ||
-                          text.find("\nrot ") != std::string_view::npos;
-    if (!format.extension.starts_with(".ac") || !isPlaced)
-        return {};
-    return {
-        "objects are put where their own 'loc' says; that of groups around them, and 'rot' "
-        "beside 'loc', are not taken right: export it in another format if parts are misplaced"};
-}
-
 /// An AC3D file without the further textures that a race track's surfaces have (skid marks,
 /// shadows): of several Assimp takes the last.
 std::string withFirstTextures(std::span<const std::byte> bytes) {
@@ -330,21 +342,6 @@ std::string withFirstTextures(std::span<const std::byte> bytes) {
     return kept;
 }
 
-/// Files as glTF's URIs name them, which Assimp takes for plain names.
-class UriFiles : public Assimp::DefaultIOSystem {
-public:
-    bool Exists(const char* name) const override {
-        return DefaultIOSystem::Exists(name) ||
-               DefaultIOSystem::Exists(withoutPercents(name).c_str());
-    }
-
-    Assimp::IOStream* Open(const char* name, const char* mode) override {
-        return DefaultIOSystem::Exists(name)
-                   ? DefaultIOSystem::Open(name, mode)
-                   : DefaultIOSystem::Open(withoutPercents(name).c_str(), mode);
-    }
-};
-
 std::string_view textOf(const mesh::MappedFile& file) {
     const auto bytes = file.bytes();
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -358,6 +355,8 @@ absl::StatusOr<std::optional<std::string>> instead(const mesh::MappedFile& file,
         return withFirstTextures(file.bytes());
     if (format.isGltf())
         return unpackGltf(file.bytes(), path);
+    if (format.extension == ".stl")
+        return stlForAssimp(file.bytes());
     return std::nullopt;
 }
 
@@ -368,7 +367,9 @@ absl::StatusOr<const aiScene*> parse(Assimp::Importer& importer, const std::stri
     ASSIGN_OR_RETURN(const std::optional<std::string> text, instead(file, path, format));
     if (text)
         return importer.ReadFileFromMemory(text->data(), text->size(), 0,
-                                           format.isGltf() ? "glb" : "ac");
+                                           format.isGltf()              ? "glb"
+                                           : format.extension == ".stl" ? "stl"
+                                                                        : "ac");
     const aiScene* scene = importer.ReadFile(path, 0);
     if (scene != nullptr && format.extension == ".obj")
         applyObjTextures(path, textOf(file), *scene);
@@ -380,8 +381,7 @@ absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& f
         Assimp::Importer importer;
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, 0);  // this file alone
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);  // none made of bones
-        if (format.isGltf())
-            importer.SetIOHandler(std::make_unique<UriFiles>().release());  // which it deletes
+        importer.SetIOHandler(assimpFiles(format).release());                 // which it deletes
         ASSIGN_OR_RETURN(const aiScene* scene, parse(importer, path, format));
         if (scene != nullptr)
             return SceneMeshes(*scene, format).gather();

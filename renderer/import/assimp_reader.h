@@ -16,7 +16,8 @@ namespace eyrie::import {
 /// A format that Assimp reads and this project has tried.
 struct AssimpFormat {
     std::string_view extension;  ///< lower case, with its dot
-    bool isYUp;             ///< its models stand on the plane y = 0, in Assimp's hands at least
+    bool isYUp;  ///< its models stand on the plane y = 0, in Assimp's hands at least, but for FBX
+                 ///< that says otherwise
     bool hasLinearColours;  ///< not as displayed (sRGB)
     /// Where a material has a texture, it stands for the diffuse colour; otherwise both multiply.
     bool texturesReplaceColours;
@@ -29,8 +30,9 @@ std::span<const AssimpFormat> assimpFormats();
 const AssimpFormat* findAssimpFormat(const std::string& path);
 
 /// Reads all meshes of a file, each as often as nodes show it, with the nodes' transforms taken in
-/// double precision; models of formats in which y is up are turned so that z is. FBX is brought to
-/// metres by the unit that the file names, which notes say; others are in the file's own units.
+/// double precision; models of formats in which y is up are turned so that z is. FBX and COLLADA
+/// are brought to metres by the unit that the file names, which notes say of FBX; others are in the
+/// file's own units.
 /// Materials' diffuse colours, times those of vertices, become vertex colours, with the opacity as
 /// alpha; diffuse textures are named, or given where the file has them in it, for loadTextures.
 /// glTF's alpha modes are kept; in other formats a texture's alpha says what it is for. Animations

@@ -143,6 +143,41 @@ TEST(FbxUnits, ThatAreNoneAreTakenForMetresAloud) {
     EXPECT_THAT(mesh->notes, testing::ElementsAre(testing::HasSubstr("unit is -1 cm")));
 }
 
+/// A triangle as FBX whose axes to the right, up and to who looks from the front are those given.
+std::string fbxWithAxes(std::string_view axes) {
+    constexpr std::array<std::string_view, 6> kNames = {
+        "CoordAxis", "CoordAxisSign", "UpAxis", "UpAxisSign", "FrontAxis", "FrontAxisSign"};
+    std::string text =
+        "; FBX 7.3.0 project file\nFBXHeaderExtension:  {\nFBXVersion: 7300\n}\n"
+        "GlobalSettings:  {\nProperties70:  {\n"
+        "P: \"UnitScaleFactor\", \"double\", \"Number\", \"\",100\n";
+    for (std::size_t i = 0; i < kNames.size(); ++i)
+        text += fmt::format("P: \"{}\", \"int\", \"Integer\", \"\",{}\n", kNames[i],
+                            i % 2 == 0       ? axes[i] - 'x'
+                            : axes[i] == '-' ? -1
+                                             : 1);
+    return text +
+           "}\n}\nObjects:  {\nGeometry: 10, \"Geometry::\", \"Mesh\" {\nVertices: *9 {\n"
+           "a: 1,2,3,4,2,3,1,5,3\n}\nPolygonVertexIndex: *3 {\na: 0,1,-3\n}\n}\n"
+           "Model: 11, \"Model::M\", \"Mesh\" {\n}\n}\n"
+           "Connections:  {\nC: \"OO\",11,0\nC: \"OO\",10,11\n}\n";
+}
+
+TEST(FbxAxes, StandUprightAsTheFileSays) {
+    const test::TemporaryFolder folder;
+    const auto firstOf = [&](std::string_view axes) {
+        test::writeFile(folder.file("t.fbx"), fbxWithAxes(axes));
+        const auto mesh = readWithAssimp(folder.file("t.fbx"));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        return mesh.ok() ? mesh->positions[mesh->triangles[0][0]] : fabric::Vec3(0);
+    };
+    EXPECT_EQ(firstOf("x+y+z+"), fabric::Vec3(1, -3, 2)) << "of Maya, and where nothing is said";
+    EXPECT_EQ(firstOf("x+z+y-"), fabric::Vec3(1, 2, 3)) << "of 3ds Max";
+    EXPECT_EQ(firstOf("z+x+y+"), fabric::Vec3(3, -2, 1));
+    EXPECT_EQ(firstOf("x-y+z-"), fabric::Vec3(-1, 3, 2)) << "turned about what is up";
+    EXPECT_EQ(firstOf("x+x+x+"), fabric::Vec3(1, -3, 2)) << "which are none";
+}
+
 /// `each` of every corner, one after another: `{0}` its number, `{1}`, `{2}`, `{3}` its place.
 std::string corners(std::string_view each) {
     std::string text;

@@ -429,7 +429,7 @@ TEST(AssimpReader, SaysThatTexturesAreNotMirrored) {
     const auto mesh = readWithAssimp(folder.file("m.gltf"));
     ASSERT_TRUE(mesh.ok()) << mesh.status();
     EXPECT_THAT(mesh->notes,
-                ElementsAre(HasSubstr("textures of 3 materials ought to be mirrored")));
+                testing::Contains(HasSubstr("textures of 3 materials ought to be mirrored")));
 }
 
 constexpr const char* kGltfWithABuffer =
@@ -560,6 +560,27 @@ TEST(AssimpReader, SaysHowLongABinaryStlOughtToBe) {
                     HasSubstr("m.stl: its header counts 2 triangles, which take 184 bytes, and it "
                               "has 150; it is cut off"))
             << header;
+    }
+}
+
+/// The first facet is red, of its own; the second has the green of the part. Those with the highest
+/// bit the other way around are MeshLab's.
+TEST(AssimpReader, TakesColoursOfAnStlAsMaterialiseMeansThem) {
+    const test::TemporaryFolder folder;
+    for (const bool isMeshLab : {false, true}) {
+        std::string file(84 + 2 * 50, '\0');
+        file.replace(0, 6, "COLOR=");
+        file[7] = file[9] = '\xFF';
+        file[80] = 2;
+        for (const std::size_t facet : {84U, 134U}) file[facet + 26] = file[facet + 40] = '\x40';
+        file[84 + 48] = 31;
+        file[isMeshLab ? 84 + 49 : 134 + 49] = '\x80';
+        test::writeFile(folder.file("m.stl"), file);
+        const auto mesh = readWithAssimp(folder.file("m.stl"));
+        ASSERT_TRUE(mesh.ok()) << mesh.status();
+        ASSERT_EQ(mesh->triangles.size(), 2U);
+        EXPECT_EQ(mesh->colours[mesh->triangles[0][0]], (fabric::Rgba{255, 0, 0, 255}));
+        EXPECT_EQ(mesh->colours[mesh->triangles[1][0]], (fabric::Rgba{0, 255, 0, 255}));
     }
 }
 

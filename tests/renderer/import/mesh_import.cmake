@@ -21,5 +21,6 @@ eyrie_test(gltf_unpacking_test LABEL unit LINK eyrie::mesh_import meshoptimizer:
 eyrie_test(joined_meshes_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(mesh_reader_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(orient_test LABEL unit LINK eyrie::mesh_import)
+eyrie_test(texture_places_test LABEL unit LINK eyrie::mesh_import assimp::assimp)
 eyrie_test(mesh_files_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(bad_mesh_test LABEL unit LINK eyrie::mesh_import)

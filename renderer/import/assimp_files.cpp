@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/assimp_files.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <absl/status/statusor.h>
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
+
+#include "renderer/import/collada_text.h"
+#include "renderer/import/uri_name.h"
+#include "renderer/import/x3d_text.h"
+#include "renderer/mesh/mapped_file.h"
+
+namespace eyrie::import {
+namespace {
+
+bool isMended(const AssimpFormat& format) {
+    return format.extension == ".x3d" || format.extension == ".dae";
+}
+
+/// Files as glTF's URIs name them, which Assimp takes for plain names.
+class UriFiles : public Assimp::DefaultIOSystem {
+public:
+    bool Exists(const char* name) const override {
+        return DefaultIOSystem::Exists(name) ||
+               DefaultIOSystem::Exists(withoutPercents(name).c_str());
+    }
+
+    Assimp::IOStream* Open(const char* name, const char* mode) override {
+        return DefaultIOSystem::Exists(name)
+                   ? DefaultIOSystem::Open(name, mode)
+                   : DefaultIOSystem::Open(withoutPercents(name).c_str(), mode);
+    }
+};
+
+class MendedFiles : public Assimp::DefaultIOSystem {
+public:
+    Assimp::IOStream* Open(const char* name, const char* mode) override {
+        const AssimpFormat* format = findAssimpFormat(name);
+        const absl::StatusOr<mesh::MappedFile> file = mesh::MappedFile::open(name);
+        if (format == nullptr || !isMended(*format) || !file.ok())
+            return DefaultIOSystem::Open(name, mode);
+        const auto read = file->bytes();
+        const std::string_view source(reinterpret_cast<const char*>(read.data()), read.size());
+        const std::string text =
+            format->extension == ".x3d" ? x3dForAssimp(source) : colladaForAssimp(source);
+        auto bytes = std::make_unique<std::uint8_t[]>(text.size());
+        std::ranges::copy(text, bytes.get());
+        return std::make_unique<Assimp::MemoryIOStream>(bytes.release(), text.size(), true)
+            .release();  // which Assimp deletes
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<Assimp::IOSystem> assimpFiles(const AssimpFormat& format) {
+    if (format.isGltf())
+        return std::make_unique<UriFiles>();
+    if (isMended(format))
+        return std::make_unique<MendedFiles>();
+    return std::make_unique<Assimp::DefaultIOSystem>();
+}
+
+}  // namespace eyrie::import

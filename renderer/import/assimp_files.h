@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include <assimp/IOSystem.hpp>
+
+#include "renderer/import/assimp_reader.h"
+
+namespace eyrie::import {
+
+/// How Assimp opens files of a format: those of glTF by their URIs, and X3D and COLLADA, those that
+/// others include too, as it understands them (x3d_text.h, collada_text.h).
+std::unique_ptr<Assimp::IOSystem> assimpFiles(const AssimpFormat& format);
+
+}  // namespace eyrie::import

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace eyrie::import {
+
+/// A COLLADA file in which textures name their coordinates as Assimp 5.2 understands it: by a digit
+/// that says which of a mesh's sets it is, from 0. It passes over <bind_vertex_input>, which says
+/// what set a name stands for, and takes the "CHANNEL1" of 3ds Max, whatever it is bound to, for
+/// the second. Names that nothing binds stay. Sets count from the lowest that any mesh has.
+/// Files that are packed (.zae) do not come here.
+std::string colladaForAssimp(std::string_view collada);
+
+}  // namespace eyrie::import
