@@ -144,6 +144,7 @@ absl::Status runBench(const Options& options) {
     const StopSignal stop;
     RETURN_IF_ERROR(checkTaus(options.taus, options.budgets));
     RETURN_IF_ERROR(checkReference(options));
+    RETURN_IF_ERROR(bench::checkReportFolder(options.out));
     ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
     ASSIGN_OR_RETURN(bench::NamedFlight flight, bench::NamedFlight::read(options.flight));
     bench::RunPlan plan = planOf(options, std::move(flight), size);

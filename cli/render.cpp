@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "cli/image_files.h"
 #include "cli/occlusion_option.h"
 #include "cli/options/one_of.h"
+#include "cli/own_places.h"
 #include "cli/picture_bands.h"
 #include "cli/picture_source.h"
 #include "cli/renderer_processes.h"
@@ -162,6 +164,20 @@ Options named(Options options, const std::string& name) {
     return options;
 }
 
+/// So that no picture, depths or statistics replace each other, or what they are made of.
+absl::Status checkPlaces(const Options& options, std::span<const Options> pictures) {
+    std::vector<NamedFile> written{{"--stats", options.stats}};
+    for (const Options& picture : pictures) {
+        written.push_back({"-o", picture.out});
+        written.push_back({"--depth", picture.depth});
+    }
+    const std::vector<NamedFile> read{{"the scene", options.scene},
+                                      {"--camera", options.camera},
+                                      {"--look", options.look},
+                                      {"--config", options.pictures.config.file}};
+    return checkOwnPlaces(written, read);
+}
+
 /// Finds out what cannot be written before anything is drawn or written.
 absl::Status checkOutputs(const Options& options) {
     RETURN_IF_ERROR(checkPictureName(options.out, "-o"));
@@ -180,6 +196,7 @@ void lookAtAll(const PictureSource& pictures, const Options& options,
 
 absl::Status render(const Options& options) {
     const StopSignal stop;
+    RETURN_IF_ERROR(checkPlaces(options, std::span(&options, 1)));
     RETURN_IF_ERROR(checkOutputs(options));
     ASSIGN_OR_RETURN(coordinator::FrameRequest request, requestOf(options));
     ASSIGN_OR_RETURN(const auto pictures,
@@ -209,7 +226,10 @@ absl::Status write(const fabric::Image& image, const Options& options,
 absl::Status renderAll(const Options& options) {
     const StopSignal stop;
     ASSIGN_OR_RETURN(const std::vector<NamedPicture> asked, picturesOf(options));
-    for (const NamedPicture& each : asked) RETURN_IF_ERROR(checkOutputs(named(options, each.name)));
+    std::vector<Options> own;
+    for (const NamedPicture& each : asked) own.push_back(named(options, each.name));
+    RETURN_IF_ERROR(checkPlaces(options, own));
+    for (const Options& each : own) RETURN_IF_ERROR(checkOutputs(each));
     ASSIGN_OR_RETURN(coordinator::FrameRequest request, requestOf(options));
     request.shown.clear();
     for (const NamedPicture& each : asked) request.shown.push_back(each.shown);
@@ -221,10 +241,9 @@ absl::Status renderAll(const Options& options) {
         return absl::InternalError(fmt::format("{} pictures were asked for, {} were drawn",
                                                asked.size(), frame.further.size() + 1));
     for (std::size_t i = 0; i < asked.size(); ++i) {
-        const Options own = named(options, asked[i].name);
-        RETURN_IF_ERROR(write(i == 0 ? frame.image : frame.further[i - 1], own, request));
+        RETURN_IF_ERROR(write(i == 0 ? frame.image : frame.further[i - 1], own[i], request));
         if (!options.pictures.quiet && !options.json)
-            fmt::print(stderr, "{}\n", own.out);
+            fmt::print(stderr, "{}\n", own[i].out);
     }
     const std::string statistics =
         wire::statisticsJson(frame.statistics, request.width, request.height, frame.device);

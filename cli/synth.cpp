@@ -21,6 +21,7 @@
 #include "renderer/import/ply_writer.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/import/terrain_synth.h"
+#include "renderer/mesh/output_file.h"
 
 namespace eyrie::cli {
 namespace {
@@ -61,6 +62,7 @@ absl::Status synthTerrain(const Options& options) {
     const std::string ending = std::filesystem::path(options.out).extension().string();
     if (ending != ".tif" && ending != ".eyt")
         return wrongEnding(options.out, ".tif (a source) or .eyt (imported)");
+    RETURN_IF_ERROR(mesh::OutputFile::check(options.out));
     ProgressBar bar(options.out, static_cast<double>(options.size * options.size) / 1e6,
                     "M samples", ProgressBar::styleFor(options.quiet));
     const import::ImportControl control{bar.callback(), stop.token()};
@@ -105,6 +107,7 @@ absl::Status synthMesh(const Options& options) {
     const std::string ending = std::filesystem::path(options.out).extension().string();
     if (ending != ".ply" && ending != ".eym")
         return wrongEnding(options.out, ".ply (a source) or .eym (imported)");
+    RETURN_IF_ERROR(mesh::OutputFile::check(options.out));
     ProgressBar bar(options.out, static_cast<double>(options.size) / 1e6, "M triangles",
                     ProgressBar::styleFor(options.quiet));
     const import::ImportControl control{bar.callback(), stop.token()};

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxTextBytes = 64 << 20;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
 
@@ -44,6 +46,8 @@ absl::StatusOr<std::string> readText(const std::string& path) {
             fmt::format("{}: larger than 64 MiB, so it is no scene, flight or camera file", path));
     if (!in.eof())
         return absl::InvalidArgumentError(fmt::format("{}: cannot be read", path));
+    if (text.starts_with(kByteOrderMark))
+        text.erase(0, kByteOrderMark.size());
     return text;
 }
 

@@ -7,7 +7,8 @@
 
 namespace eyrie::cli {
 
-/// The whole text of a file of this machine, or of a pipe. Errors: NotFound; InvalidArgument (a
+/// The whole text of a file of this machine, or of a pipe, without the mark that editors of Windows
+/// put before UTF-8. Errors: NotFound; InvalidArgument (a
 /// URL, a folder, or more than 64 MiB).
 absl::StatusOr<std::string> readText(const std::string& path);
 

@@ -2,6 +2,7 @@
 #include "cli/bench/compare_report.h"
 
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -147,6 +148,11 @@ std::string comparisonPage(const Comparison& comparison) {
 }
 
 absl::Status writeComparison(const Comparison& comparison, const std::string& folder) {
+    if (std::filesystem::exists(folder + "/summary.json"))
+        return absl::InvalidArgumentError(
+            fmt::format("-o {}: holds a report, whose page the comparison would replace; name "
+                        "another folder",
+                        folder));
     RETURN_IF_ERROR(makeFolder(folder));
     RETURN_IF_ERROR(writeText(comparisonPage(comparison), folder + "/index.html"));
     return writeText(comparisonJson(comparison), folder + "/comparison.json");

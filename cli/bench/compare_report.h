@@ -22,8 +22,8 @@ std::string comparisonJson(const Comparison& comparison);
 /// Both curves and every figure; a page that needs no other file and no network.
 std::string comparisonPage(const Comparison& comparison);
 
-/// comparison.json and index.html, in a folder that is made where there is none. Errors: those of
-/// fabric::writeError.
+/// comparison.json and index.html, in a folder that is made where there is none. Errors:
+/// InvalidArgument (a report is there), those of fabric::writeError.
 absl::Status writeComparison(const Comparison& comparison, const std::string& folder);
 
 }  // namespace eyrie::cli::bench

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/page.h"
 
+#include <cerrno>
 #include <cstdint>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include "fabric/status.h"
+#include "renderer/mesh/output_file.h"
 
 namespace eyrie::cli::bench {
 namespace {
@@ -35,6 +40,25 @@ absl::Status makeFolder(const std::string& folder) {
     std::filesystem::create_directories(folder, error);
     return error ? fabric::writeError(folder, "cannot make the folder", error.value())
                  : absl::OkStatus();
+}
+
+absl::Status checkFolder(const std::string& folder, std::span<const std::string_view> names) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    fs::path nearest = fs::absolute(folder, error);
+    while (!fs::exists(nearest, error) && nearest != nearest.parent_path())
+        nearest = nearest.parent_path();
+    if (!fs::is_directory(nearest, error))
+        return absl::InvalidArgumentError(
+            fmt::format("{}: cannot make the folder: {} is no folder; name another one", folder,
+                        nearest.string()));
+    if (::access(nearest.c_str(), W_OK | X_OK) != 0)
+        return fabric::writeError(folder, "cannot write into the folder", errno);
+    if (!fs::is_directory(folder, error))
+        return absl::OkStatus();
+    for (const std::string_view name : names)
+        RETURN_IF_ERROR(mesh::OutputFile::check((fs::path(folder) / name).string()));
+    return absl::OkStatus();
 }
 
 std::string base64(std::string_view bytes) {

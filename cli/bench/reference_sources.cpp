@@ -56,6 +56,28 @@ Files beside(const std::string& imported, const Files& recorded) {
     return files;
 }
 
+/// What is named on the command line and never looked at would be taken for what was measured.
+absl::Status checkGiven(const fabric::Scene& scene, const Files& given) {
+    Files wanted;
+    for (const fabric::SceneObject& object : scene.objects) {
+        const std::optional<Files> recorded = recordedSources(object.path);
+        if (!recorded)
+            return absl::OkStatus();  // any may be its source
+        for (const std::string& one : *recorded)
+            wanted.push_back(fs::path(one).filename().string());
+    }
+    for (const std::string& path : given) {
+        if (!import::isThere(path))
+            return absl::NotFoundError(fmt::format("--source {}: no such file", path));
+        if (std::ranges::find(wanted, fs::path(path).filename().string()) == wanted.end())
+            return absl::InvalidArgumentError(
+                fmt::format("--source {}: no source of what the scene shows has this name; give "
+                            "them the names under which they were imported: {}",
+                            path, fmt::join(wanted, ", ")));
+    }
+    return absl::OkStatus();
+}
+
 /// Where to look, in this order.
 std::vector<Files> places(const std::string& imported, const std::optional<Files>& recorded,
                           const Files& given) {
@@ -108,6 +130,7 @@ absl::StatusOr<Candidate> findSource(const fabric::SceneObject& object, const Fi
 absl::StatusOr<std::vector<FoundSource>> findSources(const fabric::Scene& scene, const Files& given,
                                                      const ReferenceMemory& memory,
                                                      const page::SourceOptions& remote) {
+    RETURN_IF_ERROR(checkGiven(scene, given));
     std::vector<FoundSource> found;
     std::uint64_t needed = memory.framesBytes;
     for (const fabric::SceneObject& object : scene.objects) {

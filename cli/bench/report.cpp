@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/report.h"
 
+#include <array>
+#include <cmath>
+#include <filesystem>
 #include <optional>
+#include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -36,11 +41,13 @@ std::string budgetColumns(const std::optional<fabric::BudgetUse>& budget) {
 /// What became of the frame time of a run, for a terminal.
 std::string budgetLine(const BenchRun& run) {
     const RunSummary s = summarize(run.played);
-    return fmt::format(
-        "{} ms to hold: {:.1f} % of frames within {:.0f} ms after the first second; promised px "
-        "p50 {:.2f}, p95 {:.2f}\n",
-        run.budgetMilliseconds, 100 * s.withinBudget, 1.2 * run.budgetMilliseconds,
-        s.tauAchieved.p50, s.tauAchieved.p95);
+    const std::string within =
+        std::isfinite(s.withinBudget)
+            ? fmt::format("{:.1f} % of frames within {:.0f} ms after the first second",
+                          100 * s.withinBudget, 1.2 * run.budgetMilliseconds)
+            : "no frame after the first second to tell by, take more --frames";
+    return fmt::format("{} ms to hold: {}; promised px p50 {:.2f}, p95 {:.2f}\n",
+                       run.budgetMilliseconds, within, s.tauAchieved.p50, s.tauAchieved.p95);
 }
 
 JsonObject toJson(const FrameError& error) {
@@ -158,11 +165,21 @@ std::string table(const std::vector<BenchRun>& runs) {
     return text + beyond + notes;
 }
 
+absl::Status checkReportFolder(const std::string& folder) {
+    static constexpr std::array<std::string_view, 4> kFiles = {"frames.csv", "errors.csv",
+                                                               "index.html", "summary.json"};
+    return checkFolder(folder, kFiles);
+}
+
 absl::Status writeReport(const Report& report, const std::string& folder) {
     RETURN_IF_ERROR(makeFolder(folder));
     RETURN_IF_ERROR(writeText(framesCsv(report.runs), folder + "/frames.csv"));
-    if (const std::string errors = errorsCsv(report.runs); !errors.empty())
+    if (const std::string errors = errorsCsv(report.runs); !errors.empty()) {
         RETURN_IF_ERROR(writeText(errors, folder + "/errors.csv"));
+    } else {  // those of an earlier report are not of this one
+        std::error_code error;
+        std::filesystem::remove(folder + "/errors.csv", error);
+    }
     RETURN_IF_ERROR(writeText(reportPage(report), folder + "/index.html"));
     return writeText(summaryJson(report), folder + "/summary.json");
 }

@@ -41,8 +41,12 @@ std::string reportPage(const Report& report);
 /// A line a run, for a terminal.
 std::string table(const std::vector<BenchRun>& runs);
 
+/// Whether writeReport() into `folder` would do; measuring takes long. Errors: as checkFolder().
+absl::Status checkReportFolder(const std::string& folder);
+
 /// Writes all three, and errors.csv where something was measured, into `folder`, which is made
-/// where there is none. Errors: those of fabric::writeError.
+/// where there is none; an errors.csv of an earlier report goes. Errors: those of
+/// fabric::writeError.
 absl::Status writeReport(const Report& report, const std::string& folder);
 
 }  // namespace eyrie::cli::bench

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string_view>
+#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,12 +26,24 @@ bool isOfTheCommandLineOnly(std::string_view name) {
     return std::ranges::find(kOfTheCommandLineOnly, name) != kOfTheCommandLineOnly.end();
 }
 
+/// Without the mark that editors of Windows put before UTF-8.
+std::istringstream textOf(std::istream& input) {
+    std::string text{std::istreambuf_iterator<char>(input), {}};
+    if (text.starts_with("\xEF\xBB\xBF"))
+        text.erase(0, 3);
+    return std::istringstream(std::move(text));
+}
+
 absl::StatusOr<std::vector<CLI::ConfigItem>> itemsOf(const std::string& path) {
+    if (std::error_code error; std::filesystem::is_directory(path, error))
+        return absl::InvalidArgumentError(
+            fmt::format("--options {}: this is a folder, not a file", path));
     std::ifstream input(path);
     if (!input)
         return absl::NotFoundError(fmt::format("--options {}: cannot be read", path));
+    std::istringstream text = textOf(input);
     try {
-        std::vector<CLI::ConfigItem> items = CLI::ConfigBase().from_config(input);
+        std::vector<CLI::ConfigItem> items = CLI::ConfigBase().from_config(text);
         // CLI11's marks of where sections begin and end.
         std::erase_if(items,
                       [](const auto& item) { return item.name == "++" || item.name == "--"; });

@@ -86,6 +86,10 @@ absl::Status validate(const Flight& flight) {
         const std::string name = fmt::format("keys[{}]", i);
         if (!std::isfinite(key.seconds))
             return absl::InvalidArgumentError(name + ".seconds is not a finite number");
+        if (std::abs(key.seconds) > kMaxFlightSeconds)
+            return absl::InvalidArgumentError(
+                fmt::format("{}.seconds is {}; it must be from {:g} to {:g}", name, key.seconds,
+                            -kMaxFlightSeconds, kMaxFlightSeconds));
         if (i != 0 && key.seconds <= flight.keys[i - 1].seconds)
             return absl::InvalidArgumentError(
                 fmt::format("{}.seconds is {}, not after the {} of the key before", name,

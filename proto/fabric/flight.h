@@ -17,6 +17,9 @@ struct FlightKey {
     bool operator==(const FlightKey&) const = default;
 };
 
+/// A key's time is between this and its negative: lengths, and times between keys, stay numbers.
+inline constexpr double kMaxFlightSeconds = 1e15;
+
 /// A camera's path. Between keys eye, target, up and field of view follow cubic Hermite curves that
 /// pass through the keys, with the slopes of Catmull and Rom, "A class of local interpolating
 /// splines" (1974), for keys unevenly spaced in time.
@@ -32,8 +35,8 @@ struct Flight {
     Camera at(double seconds) const;
 };
 
-/// InvalidArgument, naming the key, when there are no keys, their times are not finite or do not
-/// ascend, or a camera is refused.
+/// InvalidArgument, naming the key, when there are no keys, their times are not finite, beyond
+/// kMaxFlightSeconds or do not ascend, or a camera is refused.
 absl::Status validate(const Flight& flight);
 
 }  // namespace eyrie::fabric

@@ -23,6 +23,8 @@ absl::Status writeError(std::string_view path, std::string_view what, int error)
         case ENOENT:
         case ENOTDIR:
             return absl::NotFoundError(message + "; create the folder first");
+        case EISDIR:
+            return absl::InvalidArgumentError(message + "; name a file, not a folder");
         case EACCES:
         case EPERM:
         case EROFS:

@@ -13,8 +13,8 @@ namespace eyrie::fabric {
 absl::Status withContext(const absl::Status& status, std::string_view context);
 
 /// What the system said (`error`, of errno) when `path` could not be written: "path: what: reason",
-/// and the remedy where there is one. NotFound (no such folder), PermissionDenied,
-/// ResourceExhausted (disk full), Unavailable.
+/// and the remedy where there is one. NotFound (no such folder), InvalidArgument (a folder has the
+/// file's name), PermissionDenied, ResourceExhausted (disk full), Unavailable.
 absl::Status writeError(std::string_view path, std::string_view what, int error);
 
 }  // namespace eyrie::fabric

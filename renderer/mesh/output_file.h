@@ -18,7 +18,8 @@ namespace eyrie::mesh {
 /// place.
 class OutputFile {
 public:
-    /// Errors: NotFound (no such folder), PermissionDenied, Unavailable.
+    /// Errors: InvalidArgument (a folder has this name), NotFound (no such folder),
+    /// PermissionDenied, Unavailable.
     static absl::StatusOr<OutputFile> create(const std::string& path);
     /// Whether create() would do. Leaves pipes alone: who reads one would see it end. Errors: as
     /// above.

@@ -71,6 +71,14 @@ bool isLocked(int fd) {
     return flock(fd, LOCK_EX | LOCK_NB) == 0 || errno == ENOLCK || errno == EOPNOTSUPP;
 }
 
+/// Found out before the work, not when the file is to take the folder's place.
+absl::Status isNoFolder(const std::string& path) {
+    struct stat named {};
+    return stat(path.c_str(), &named) == 0 && S_ISDIR(named.st_mode)
+               ? fabric::writeError(path, "cannot be written", EISDIR)
+               : absl::OkStatus();
+}
+
 }  // namespace
 
 void PageBuilder::add(int place, int level, const TileMesh& mesh,
@@ -154,6 +162,7 @@ EytWriter::~EytWriter() {
 }
 
 absl::StatusOr<EytWriter> EytWriter::create(const std::string& path) {
+    RETURN_IF_ERROR(isNoFolder(path));
     std::string partialPath = fmt::format("{}.partial-{}", path, getpid());
     const int fd = open(partialPath.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (fd < 0)
@@ -162,6 +171,7 @@ absl::StatusOr<EytWriter> EytWriter::create(const std::string& path) {
 }
 
 absl::StatusOr<EytWriter> EytWriter::resume(const std::string& path) {
+    RETURN_IF_ERROR(isNoFolder(path));
     std::string partialPath = path + ".partial";
     // Never through a link: what that leads to is somebody else's.
     const int fd = open(partialPath.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);

@@ -232,6 +232,15 @@ TEST_F(CompareReports, DamagedReportsAreRefusedWithTheField) {
     EXPECT_THAT(with("\"width\": 640", "\"width\": 1e300"), HasSubstr("bench.width is 1e+300"));
 }
 
+TEST_F(CompareReports, AComparisonDoesNotTakeThePlaceOfAReport) {
+    const auto comparison = compared(reportTaking(20, 5), reportTaking(22, 5));
+    ASSERT_TRUE(comparison.ok()) << comparison.status();
+    folder_.write("summary.json", "{}");
+    folder_.write("index.html", "the report");
+    EXPECT_TRUE(absl::IsInvalidArgument(writeComparison(*comparison, folder_.path("."))));
+    EXPECT_EQ(std::filesystem::file_size(folder_.path("index.html")), 10U);
+}
+
 TEST_F(CompareReports, ThePageAndTheJsonSayTheSame) {
     const auto comparison =
         compared(reportTaking(20, 5, "</script>.eyt"), reportTaking(22, 5, "</script>.eyt"));

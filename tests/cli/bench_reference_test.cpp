@@ -82,6 +82,15 @@ TEST_F(ReferenceSources, ThatAreNowhereAreNamed) {
     EXPECT_THAT(unknown.ToString(), testing::HasSubstr("--source"));
 }
 
+TEST_F(ReferenceSources, ThatAreNamedButAreOfNothingShownAreRefused) {
+    const absl::Status missing = find({folder_.path("from/nowhere/ball.ply")}).status();
+    EXPECT_TRUE(absl::IsNotFound(missing)) << missing;
+    const absl::Status other = find({writeBall("other.ply", 2)}).status();
+    EXPECT_TRUE(absl::IsInvalidArgument(other)) << other;
+    EXPECT_THAT(other.ToString(), testing::HasSubstr("other.ply"));
+    EXPECT_THAT(other.ToString(), testing::HasSubstr("imported: ball.ply"));
+}
+
 TEST_F(ReferenceSources, ThatHaveChangedAreRefusedWithBothHashes) {
     const auto before = truth::inspectSource(fabric::ObjectKind::Mesh, {source_});
     writeBall("from/ball.ply", 2);

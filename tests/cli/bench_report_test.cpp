@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <numeric>
 
@@ -11,6 +13,7 @@
 #include "cli/bench/run_summary.h"
 #include "cli/tune_mesh.h"
 #include "tests/support/json.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eyrie::cli::bench {
 namespace {
@@ -93,6 +96,12 @@ TEST(BenchReport, ARunAtAFrameTimeSaysHowItWasHeld) {
     EXPECT_THAT(table(held.runs),
                 testing::HasSubstr("33 ms to hold: 0.0 % of frames within 40 ms"));
     EXPECT_THAT(framesCsv(held.runs), testing::HasSubstr(",33,30.000,0.5,20.000\n"));
+}
+
+TEST(BenchReport, ARunTooShortToTellHowItsFrameTimeWasHeldSaysSo) {
+    Report held = report();
+    held.runs[0].budgetMilliseconds = 33;
+    EXPECT_THAT(table(held.runs), testing::HasSubstr("33 ms to hold: no frame after the first"));
 }
 
 TEST(BenchReport, FramesThatPromiseMoreThanWasAskedSaySoEverywhere) {
@@ -295,6 +304,25 @@ TEST(BenchReport, AFilesNameCannotEndThePagesScript) {
     const std::string page = reportPage(report("</script><b>.eyt"));
     EXPECT_THAT(page, testing::HasSubstr("\\u003c/script>\\u003cb>.eyt"));
     EXPECT_EQ(page.find("</script>"), page.rfind("</script>"));
+}
+
+TEST(BenchReport, HasNoErrorsOfAnEarlierReportBesideIt) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder.path("errors.csv")) << "of another report";
+    ASSERT_TRUE(writeReport(report(), folder.path("")).ok());
+    EXPECT_FALSE(std::filesystem::exists(folder.path("errors.csv")));
+    EXPECT_TRUE(std::filesystem::exists(folder.path("frames.csv")));
+}
+
+TEST(BenchReport, AFolderThatCannotTakeItIsRefusedBeforeAnythingIsMade) {
+    const test::TemporaryFolder folder;
+    EXPECT_TRUE(checkReportFolder(folder.path("a/b")).ok());
+    EXPECT_FALSE(std::filesystem::exists(folder.path("a")));
+    std::ofstream(folder.path("file")) << "no folder";
+    EXPECT_TRUE(absl::IsInvalidArgument(checkReportFolder(folder.path("file"))));
+    EXPECT_TRUE(absl::IsInvalidArgument(checkReportFolder(folder.path("file/b"))));
+    std::filesystem::create_directories(folder.path("c/summary.json"));
+    EXPECT_TRUE(absl::IsInvalidArgument(checkReportFolder(folder.path("c"))));
 }
 
 TEST(BenchReport, ThePageNeedsNothingElse) {

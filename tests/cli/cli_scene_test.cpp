@@ -367,6 +367,13 @@ TEST_F(SceneFiles, WhatIsMissingIsNotFound) {
     EXPECT_TRUE(absl::IsInvalidArgument(readText(folder_.path().string()).status()));
 }
 
+TEST_F(SceneFiles, TheByteOrderMarkOfEditorsIsNoPartOfTheText) {
+    std::ofstream(folder_.path("marked.json")) << "\xEF\xBB\xBF{}";
+    const auto text = readText(folder_.path("marked.json"));
+    ASSERT_TRUE(text.ok()) << text.status();
+    EXPECT_EQ(*text, "{}");
+}
+
 TEST_F(SceneFiles, OfWhatHasNoEndNoMoreIsReadThanATextMayHave) {
     const absl::Status status = readText("/dev/zero").status();
     EXPECT_TRUE(absl::IsInvalidArgument(status));

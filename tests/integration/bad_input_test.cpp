@@ -331,6 +331,28 @@ TEST_F(BadInput, OutputIntoAFolderThatIsMissingIsRefused) {
     expectRefused({"synth", "terrain", "--size", "100", "-o", out + ".tif"}, {out});
 }
 
+TEST_F(BadInput, OutputInTheWayOfOtherFilesIsRefused) {
+    const std::string out = bad("out.png");
+    expectRefused({"render", good("ball.eym"), "--size", "32x32", "-o", out, "--depth", out},
+                  {"--depth", out, "-o"});
+    expectRefused({"render", good("ball.eym"), "--size", "32x32", "-o", out, "--stats", out},
+                  {"--stats", out, "-o"});
+    expectRefused(
+        {"render", good("ball.eym"), "--size", "32x32", "-o", out, "--depth", good("ball.eym")},
+        {"--depth", "the scene"});
+    expectRefused({"bench", good("ball.eym"), "-o", good("ball.ply")}, {good("ball.ply")});
+    const std::string folder = bad("folder");
+    for (const char* ending : {".png", ".eyt", ".eym", ".tif"})
+        std::filesystem::create_directory(folder + ending);
+    expectRefused({"render", good("ball.eym"), "-o", folder + ".png"}, {folder, "name a file"});
+    expectRefused({"import", "mesh", good("ball.ply"), "-o", folder + ".eym"},
+                  {folder, "name a file"});
+    expectRefused({"synth", "terrain", "--size", "100", "-o", folder + ".tif"},
+                  {folder, "name a file"});
+    expectRefused({"import", "terrain", good("dem.tif"), "-o", folder + ".eyt"},
+                  {folder, "name a file"});
+}
+
 TEST_F(BadInput, OutputLargerThanFilesMayBeFailsByNameAndLeavesNothing) {
     const std::vector<Words> commands = {
         {"import", "mesh", good("ball.ply"), "-o", bad("out.eym")},

@@ -170,6 +170,17 @@ TEST_F(Program, RefusesAFileThatIsNotThereOrSaysThingsTwice) {
     EXPECT_THAT(errorOf({"serve", "dem.tif", "--options", file_}), HasSubstr("set twice"));
 }
 
+TEST_F(Program, RefusesAFolderOfOptions) {
+    EXPECT_THAT(errorOf({"serve", "dem.tif", "--options", testing::TempDir()}),
+                HasSubstr("this is a folder"));
+}
+
+TEST_F(Program, ReadsOptionsBehindAByteOrderMark) {
+    write("\xEF\xBB\xBFlisten = \"a:1\"\r\n");
+    ASSERT_TRUE(run({"serve", "dem.tif", "--options", file_}).ok());
+    EXPECT_EQ(listen_, "a:1");
+}
+
 TEST_F(Program, LeavesWhatComesAfterTwoDashesAlone) {
     environment_ = {{"EYRIE_LISTEN", "environment:3"}};
     ASSERT_TRUE(run({"serve", "--", "--listen"}).ok());

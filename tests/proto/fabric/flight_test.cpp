@@ -71,6 +71,9 @@ TEST(Flight, RefusalsNameTheKey) {
                 testing::HasSubstr("keys[1].seconds is not a finite number"));
     EXPECT_THAT(refusal({{keyAt(0, {}), keyAt(2, {}), keyAt(1, {})}}),
                 testing::HasSubstr("keys[2].seconds is 1, not after the 2"));
+    EXPECT_THAT(
+        refusal({{keyAt(-1.5e308, {}), keyAt(1.5e308, {})}}),
+        testing::HasSubstr("keys[0].seconds is -1.5e+308; it must be from -1e+15 to 1e+15"));
     EXPECT_THAT(refusal({{keyAt(0, {}), keyAt(0, {})}}), testing::HasSubstr("keys[1].seconds"));
     EXPECT_THAT(refusal({{keyAt(0, {kNaN, 0, 0})}}), testing::HasSubstr("keys[0]: camera.eye"));
 }

@@ -49,12 +49,20 @@ TEST(OutputFile, LeavesNothingWithoutCommit) {
     EXPECT_THAT(folder.names(), testing::IsEmpty());
 }
 
-TEST(OutputFile, LeavesNothingWhenItsNameIsAFolder) {
+TEST(OutputFile, IsRefusedBeforeTheWorkWhenItsNameIsAFolder) {
     const test::TemporaryFolder folder;
     std::filesystem::create_directory(folder.file("out"));
+    EXPECT_TRUE(absl::IsInvalidArgument(OutputFile::check(folder.file("out"))));
+    EXPECT_TRUE(absl::IsInvalidArgument(OutputFile::create(folder.file("out")).status()));
+    EXPECT_THAT(folder.names(), testing::ElementsAre("out"));
+}
+
+TEST(OutputFile, LeavesNothingWhenItsNameHasBecomeAFolder) {
+    const test::TemporaryFolder folder;
     {
         auto out = OutputFile::create(folder.file("out"));
         ASSERT_TRUE(out.ok());
+        std::filesystem::create_directory(folder.file("out"));
         EXPECT_FALSE(out->commit().ok());
     }
     EXPECT_THAT(folder.names(), testing::ElementsAre("out"));
