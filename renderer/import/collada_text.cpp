@@ -19,9 +19,11 @@ namespace {
 /// Calls `use` with each tag that begins with `opening`, and where it begins.
 template <typename Use>
 void forEachTag(std::string_view xml, std::string_view opening, const Use& use) {
-    for (std::size_t at = xml.find(opening); at != std::string_view::npos;
-         at = xml.find(opening, at + 1))
-        use(xml.substr(at, endOfTag(xml.substr(at))), at);
+    for (std::size_t at = xml.find(opening); at != std::string_view::npos;) {
+        const std::string_view tag = xml.substr(at, endOfTag(xml.substr(at)));
+        use(tag, at);
+        at = xml.find(opening, at + tag.size());
+    }
 }
 
 /// A number of a set; 0 where the attribute has none, as the format has it.

@@ -212,6 +212,7 @@ private:
     void lookForGeometry();
     void lookForGeometry(const Json& attributes);
     bool isNeeded() const;
+    absl::Status checkRoom(std::uint64_t bytes) const;
     void addView(const Json& view, std::span<const std::byte> bytes);
     std::span<const std::byte> bytesOfView(std::size_t index) const;
 
@@ -221,6 +222,7 @@ private:
     std::vector<bool> isGeometry_;  ///< of accessors
     Json views_ = Json::array();    ///< unpacked
     Bytes binary_;                  ///< which they are in
+    std::uint64_t most_ = 0;        ///< bytes of it
 };
 
 absl::StatusOr<Bytes> Unpacking::bufferAt(const std::string& uri, std::string_view where) const {
@@ -262,6 +264,13 @@ absl::StatusOr<std::span<const std::byte>> Unpacking::bufferOf(const Json& view,
     return part(buffers_[buffer], offset, length, where);
 }
 
+/// Views and accessors may share bytes, any number of them, and each has them unpacked for itself.
+absl::Status Unpacking::checkRoom(std::uint64_t bytes) const {
+    if (binary_.size() + bytes > most_)
+        return wrong("it", fmt::format("unpacks to more than {} times its size", kMostUnpacked));
+    return absl::OkStatus();
+}
+
 void Unpacking::addView(const Json& view, std::span<const std::byte> bytes) {
     binary_.resize((binary_.size() + 3) / 4 * 4);
     Json added = view;
@@ -282,6 +291,7 @@ absl::Status Unpacking::unpackView(Json& view, std::size_t index) {
     const Json code = at(at(view, "extensions"), kCompression);
     if (code.is_null()) {
         ASSIGN_OR_RETURN(const auto bytes, bufferOf(view, where));
+        RETURN_IF_ERROR(checkRoom(bytes.size()));
         addView(view, bytes);
         return absl::OkStatus();
     }
@@ -292,6 +302,7 @@ absl::Status Unpacking::unpackView(Json& view, std::size_t index) {
     packed.mode = textAt(code, "mode");
     packed.filter = textAt(code, "filter");
     ASSIGN_OR_RETURN(const Bytes bytes, unpacked(packed, where));
+    RETURN_IF_ERROR(checkRoom(bytes.size()));
     view["extensions"].erase(kCompression);
     if (packed.mode == "ATTRIBUTES")
         view["byteStride"] = packed.stride;
@@ -331,6 +342,7 @@ absl::Status Unpacking::toFloats(Json& accessor, std::string_view where) {
         (count > 0 &&
          (count - 1) * stride + own + std::min(offset, bytes.size() + 1) > bytes.size()))
         return wrong(where, fmt::format("has {} elements, more than its bufferView", count));
+    RETURN_IF_ERROR(checkRoom(count * components * sizeof(float)));
     const bool isNormalised = at(accessor, "normalized") == true;
     std::vector<float> floats;
     floats.reserve(count * components);
@@ -386,6 +398,9 @@ absl::StatusOr<std::optional<std::string>> Unpacking::run(const GltfChunks& chun
         RETURN_IF_ERROR(readBuffer(buffer, buffers_.size()));
     if (!buffers_.empty() && buffers_[0].empty())
         buffers_[0].assign(chunks.binary.begin(), chunks.binary.end());
+    most_ = chunks.json.size();
+    for (const Bytes& buffer : buffers_) most_ += buffer.size();
+    most_ *= kMostUnpacked;
     for (Json& view : root_["bufferViews"]) RETURN_IF_ERROR(unpackView(view, views_.size()));
     for (std::size_t i = 0; i < isGeometry_.size(); ++i)
         if (Json& accessor = root_["accessors"][i];

@@ -18,7 +18,7 @@ namespace eyrie::import {
 ///
 /// Buffers that are files are looked for where `path` is. Morph targets and animations stay as they
 /// are, unpacked. Errors: InvalidArgument (no sound glTF, with what is wrong; a buffer that is not
-/// there; more than 64 times the bytes that it is packed in).
+/// there; more than 64 times the bytes that it is packed in, part by part and all in all).
 absl::StatusOr<std::optional<std::string>> unpackGltf(std::span<const std::byte> bytes,
                                                       const std::string& path);
 

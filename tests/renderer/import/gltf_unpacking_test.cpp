@@ -260,6 +260,19 @@ TEST(GltfUnpacking, SaysWhatIsWrong) {
         EXPECT_EQ(unpackGltf(bytesOf(text), "m.gltf").value(), std::nullopt) << "Assimp says it";
 }
 
+TEST(GltfUnpacking, RefusesBytesThatAreSharedMoreThanAnyMeshDoes) {
+    const std::string accessor =
+        R"({"bufferView":0,"componentType":5121,"type":"SCALAR","count":30000,"normalized":true})";
+    std::string accessors = accessor;
+    for (int i = 1; i < 200; ++i) accessors += "," + accessor;
+    const std::string file = fmt::format(
+        R"({{"buffers":[{{"uri":"data:;base64,{}"}}],"bufferViews":[{{"buffer":0,
+"byteLength":30000}}],"accessors":[{}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}]}})",
+        base64(std::string(30'000, 'x')), accessors);
+    EXPECT_THAT(std::string(unpackGltf(bytesOf(file), "m.gltf").status().message()),
+                HasSubstr("it unpacks to more than 64 times its size"));
+}
+
 TEST(GltfUnpacking, TakesNoDamageForAMesh) {
     const test::TemporaryFolder folder;
     writeSheet(folder);

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is read of models before Assimp reads them, or beside it, of any bytes: X3D, COLLADA, STL
+// and material files of OBJ. What one has mended needs no mending.
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "renderer/import/collada_text.h"
+#include "renderer/import/obj_textures.h"
+#include "renderer/import/stl_colours.h"
+#include "renderer/import/stl_length.h"
+#include "renderer/import/uri_name.h"
+#include "renderer/import/x3d_text.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace eyrie::import;
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    const auto bytes = std::as_bytes(std::span(data, size));
+    x3dForAssimp(text);
+    colladaForAssimp(text);
+    for (const auto& [material, texture] : objTexturesOf(text))
+        if (withoutPercents(texture.name).size() > texture.name.size())
+            std::abort();
+    const auto stl = stlForAssimp(bytes);
+    if (stl && (stl->size() != size || wrongLengthOfStl(std::as_bytes(std::span(*stl)))))
+        std::abort();
+    return 0;
+}
