@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/renderer/import/ply_text.h"
+#include "tests/renderer/import/small_models.h"
 #include "tests/renderer/import/tga_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
@@ -20,19 +21,6 @@ namespace eyrie::import {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr const char* kObj = "mtllib m.mtl\nv 5 0 0\nv 6 0 0\nv 5 1 0\nusemtl red\nf 1 2 3\n";
-constexpr const char* kMtl = "newmtl red\nKd 1 0 0\n";
-constexpr const char* kJdn =
-    "Number of Materials = 0\nNumber of Objects = 1\nMaterial ID = 0\nNum Vertices = 3\n"
-    "Num Faces = 1\nVert = 0 0 0\nVert = 1 0 0\nVert = 0 1 0\nFace = 0 1 2\n";
-constexpr const char* kTexturedObj =
-    "mtllib m.mtl\nv 5 0 0\nv 6 0 0\nv 5 1 0\nvt 0.25 0\nvt 1 0\nvt 0 1\n"
-    "usemtl tiles\nf 1/1 2/2 3/3\nusemtl lost\nf 1/1 3/3 2/2\nusemtl pane\nf 1 2 3\n"
-    "usemtl broken\nf 1/1 2/2 3/3\n";
-constexpr const char* kTexturedMtl =
-    "newmtl tiles\nKd 0 0 0\nmap_Kd textures\\Tiles.tga\nnewmtl lost\nKd 1 0 0\nmap_Kd lost.png\n"
-    "newmtl pane\nKd 0 0 1\nd 0.4\nnewmtl broken\nKd 0 1 0\nmap_Kd broken.png\n";
 
 /// Writes OBJ files of one triangle each, of which each begins at another x, from 0 on.
 std::vector<std::string> writeObjs(const test::TemporaryFolder& folder, std::size_t count) {
@@ -48,9 +36,9 @@ TEST(JoinedMeshes, AreOfFilesOfAnyFormatInTheirOrder) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("a.ply"),
                     test::plyOf(test::tetrahedron(), test::Encoding::LittleEndian));
-    test::writeFile(folder.file("b.OBJ"), kObj);
-    test::writeFile(folder.file("m.mtl"), kMtl);
-    test::writeFile(folder.file("c.jdn"), kJdn);
+    test::writeFile(folder.file("b.OBJ"), test::kObj);
+    test::writeFile(folder.file("m.mtl"), test::kMtl);
+    test::writeFile(folder.file("c.jdn"), test::kJdn);
     const std::vector<std::string> paths = {folder.file("a.ply"), folder.file("b.OBJ"),
                                             folder.file("c.jdn")};
     const auto mesh = readMeshes(paths);
@@ -79,8 +67,8 @@ TEST(JoinedMeshes, HaveTheMaterialsOfAllFiles) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("a.ply"),
                     test::plyOf(test::tetrahedron(), test::Encoding::LittleEndian));
-    test::writeFile(folder.file("m.obj"), kTexturedObj);
-    test::writeFile(folder.file("m.mtl"), kTexturedMtl);
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    test::writeFile(folder.file("m.mtl"), test::kTexturedMtl);
     test::writeFile(folder.file("tiles.tga"), test::tgaOf(1, 1, {{9, 8, 7, 255}}));
     const std::vector<std::string> paths = {folder.file("a.ply"), folder.file("m.obj"),
                                             folder.file("m.obj")};

@@ -14,6 +14,7 @@
 #include "renderer/import/texture_files.h"
 #include "renderer/mesh/eym_format.h"
 #include "tests/renderer/import/ply_text.h"
+#include "tests/renderer/import/small_models.h"
 #include "tests/renderer/import/tga_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
@@ -22,17 +23,11 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kObj = "mtllib m.mtl\nv 5 0 0\nv 6 0 0\nv 5 1 0\nusemtl red\nf 1 2 3\n";
-constexpr const char* kMtl = "newmtl red\nKd 1 0 0\n";
-constexpr const char* kJdn =
-    "Number of Materials = 0\nNumber of Objects = 1\nMaterial ID = 0\nNum Vertices = 3\n"
-    "Num Faces = 1\nVert = 0 0 0\nVert = 1 0 0\nVert = 0 1 0\nFace = 0 1 2\n";
-
 TEST(MeshReader, BelievesTheContentMoreThanTheName) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("ply.stl"),
                     test::plyOf(test::tetrahedron(), test::Encoding::Ascii));
-    test::writeFile(folder.file("jdn.obj"), kJdn);
+    test::writeFile(folder.file("jdn.obj"), test::kJdn);
     EXPECT_EQ(readMesh(folder.file("ply.stl"))->triangles.size(), 4U);
     EXPECT_EQ(readMesh(folder.file("jdn.obj"))->triangles.size(), 1U);
 }
@@ -91,24 +86,16 @@ TEST(MeshReader, HandsTheMemoryThatItMayUseToTheReaderOfJdn) {
 
 TEST(MeshReader, ReadsAnObjWithoutItsMaterials) {
     const test::TemporaryFolder folder;
-    test::writeFile(folder.file("m.obj"), kObj);
+    test::writeFile(folder.file("m.obj"), test::kObj);
     const auto mesh = readMesh(folder.file("m.obj"));
     ASSERT_TRUE(mesh.ok()) << mesh.status();
     EXPECT_EQ(mesh->triangles.size(), 1U);
 }
 
-constexpr const char* kTexturedObj =
-    "mtllib m.mtl\nv 5 0 0\nv 6 0 0\nv 5 1 0\nvt 0.25 0\nvt 1 0\nvt 0 1\n"
-    "usemtl tiles\nf 1/1 2/2 3/3\nusemtl lost\nf 1/1 3/3 2/2\nusemtl pane\nf 1 2 3\n"
-    "usemtl broken\nf 1/1 2/2 3/3\n";
-constexpr const char* kTexturedMtl =
-    "newmtl tiles\nKd 0 0 0\nmap_Kd textures\\Tiles.tga\nnewmtl lost\nKd 1 0 0\nmap_Kd lost.png\n"
-    "newmtl pane\nKd 0 0 1\nd 0.4\nnewmtl broken\nKd 0 1 0\nmap_Kd broken.png\n";
-
 TEST(MeshReader, ReadsTexturesAndCountsThoseThatAreMissing) {
     const test::TemporaryFolder folder;
-    test::writeFile(folder.file("m.obj"), kTexturedObj);
-    test::writeFile(folder.file("m.mtl"), kTexturedMtl);
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    test::writeFile(folder.file("m.mtl"), test::kTexturedMtl);
     test::writeFile(folder.file("tiles.TGA"), test::tgaOf(2, 1, {{9, 8, 7, 255}, {1, 2, 3, 0}}));
     test::writeFile(folder.file("broken.png"), "\x89PNG\r\n\x1a\n and no more");
     const auto mesh = readMesh(folder.file("m.obj"));
@@ -184,7 +171,7 @@ TEST(MeshReader, LoadsBothImagesOfATexturedPlyOfMeshLab) {
 
 TEST(MeshReader, RefusesTexturesOfAbsurdSize) {
     const test::TemporaryFolder folder;
-    test::writeFile(folder.file("m.obj"), kTexturedObj);
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
     test::writeFile(folder.file("m.mtl"), "newmtl tiles\nKd 0 0 1\nmap_Kd a.tga\n");
     std::string large = test::tgaOf(1, 1, {{9, 8, 7, 255}});
     large[13] = large[15] = '\x7F';
@@ -230,7 +217,7 @@ TEST(SgiImage, HasItsRowsFromTheBottom) {
 
 TEST(MeshReader, NamesMaterialFilesThatAreMissing) {
     const test::TemporaryFolder folder;
-    test::writeFile(folder.file("m.obj"), kObj);
+    test::writeFile(folder.file("m.obj"), test::kObj);
     const auto mesh = readMesh(folder.file("m.obj"));
     ASSERT_TRUE(mesh.ok()) << mesh.status();
     EXPECT_TRUE(mesh->materials.empty());
@@ -242,12 +229,12 @@ TEST(MeshReader, NamesMaterialFilesThatAreMissing) {
 TEST(MeshSourceHash, IsThatOfALoneFileAndCountsItsCompany) {
     const test::TemporaryFolder folder;
     const std::string path = folder.file("m.obj");
-    test::writeFile(path, kObj);
+    test::writeFile(path, test::kObj);
     const std::vector<std::string> paths = {path};
     const auto alone = meshSourceHash(paths);
     ASSERT_TRUE(alone.ok()) << alone.status();
     EXPECT_EQ(*alone, *mesh::contentHash(path));
-    test::writeFile(folder.file("m.mtl"), kMtl);
+    test::writeFile(folder.file("m.mtl"), test::kMtl);
     const std::uint64_t red = *meshSourceHash(paths);
     test::writeFile(folder.file("m.mtl"), "newmtl red\nKd 0 1 0\n");
     const std::uint64_t green = *meshSourceHash(paths);
