@@ -210,7 +210,7 @@ private:
     absl::Status unpackView(Json& view, std::size_t index);
     absl::Status toFloats(Json& accessor, std::string_view where);
     void lookForGeometry();
-    void lookForGeometry(const Json& attributes);
+    void markGeometry(const Json& attributes);
     bool isNeeded() const;
     absl::Status checkRoom(std::uint64_t bytes) const;
     void addView(const Json& view, std::span<const std::byte> bytes);
@@ -310,7 +310,7 @@ absl::Status Unpacking::unpackView(Json& view, std::size_t index) {
     return absl::OkStatus();
 }
 
-void Unpacking::lookForGeometry(const Json& attributes) {
+void Unpacking::markGeometry(const Json& attributes) {
     if (!attributes.is_object())
         return;
     for (const auto& [name, accessor] : attributes.items())
@@ -363,8 +363,8 @@ void Unpacking::lookForGeometry() {
     isGeometry_.resize(root_["accessors"].size());
     for (const Json& mesh : root_["meshes"])
         for (const Json& primitive : at(mesh, "primitives")) {
-            lookForGeometry(at(primitive, "attributes"));
-            for (const Json& target : at(primitive, "targets")) lookForGeometry(target);
+            markGeometry(at(primitive, "attributes"));
+            for (const Json& target : at(primitive, "targets")) markGeometry(target);
         }
 }
 

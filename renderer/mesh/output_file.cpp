@@ -15,6 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "fabric/no_folder.h"
 #include "fabric/status.h"
 
 namespace eyrie::mesh {
@@ -44,18 +45,10 @@ std::optional<struct stat> inItsPlace(const std::string& path) {
     return target;
 }
 
-/// Found out before the work, not when the file is to take the folder's place.
-absl::Status isNoFolder(const std::string& path) {
-    struct stat target {};
-    if (::stat(path.c_str(), &target) != 0 || !S_ISDIR(target.st_mode))
-        return absl::OkStatus();
-    return fabric::writeError(path, "cannot create it", EISDIR);
-}
-
 }  // namespace
 
 absl::StatusOr<OutputFile> OutputFile::create(const std::string& path) {
-    RETURN_IF_ERROR(isNoFolder(path));
+    RETURN_IF_ERROR(fabric::checkNoFolder(path));
     if (const auto target = inItsPlace(path)) {
         const int own = ownOutput(*target);
         const int fd = own >= 0 ? ::fcntl(own, F_DUPFD_CLOEXEC, 0)

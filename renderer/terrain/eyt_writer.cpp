@@ -14,6 +14,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include "fabric/no_folder.h"
 #include "fabric/status.h"
 #include "renderer/terrain/eyt_layout.h"
 #include "renderer/terrain/normal_map.h"
@@ -69,14 +70,6 @@ bool isNameOf(const std::string& path, int fd) {
 /// Where a file system has no locks it is on whoever starts two imports into one file.
 bool isLocked(int fd) {
     return flock(fd, LOCK_EX | LOCK_NB) == 0 || errno == ENOLCK || errno == EOPNOTSUPP;
-}
-
-/// Found out before the work, not when the file is to take the folder's place.
-absl::Status isNoFolder(const std::string& path) {
-    struct stat named {};
-    return stat(path.c_str(), &named) == 0 && S_ISDIR(named.st_mode)
-               ? fabric::writeError(path, "cannot be written", EISDIR)
-               : absl::OkStatus();
 }
 
 }  // namespace
@@ -162,7 +155,7 @@ EytWriter::~EytWriter() {
 }
 
 absl::StatusOr<EytWriter> EytWriter::create(const std::string& path) {
-    RETURN_IF_ERROR(isNoFolder(path));
+    RETURN_IF_ERROR(fabric::checkNoFolder(path));
     std::string partialPath = fmt::format("{}.partial-{}", path, getpid());
     const int fd = open(partialPath.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (fd < 0)
@@ -171,7 +164,7 @@ absl::StatusOr<EytWriter> EytWriter::create(const std::string& path) {
 }
 
 absl::StatusOr<EytWriter> EytWriter::resume(const std::string& path) {
-    RETURN_IF_ERROR(isNoFolder(path));
+    RETURN_IF_ERROR(fabric::checkNoFolder(path));
     std::string partialPath = path + ".partial";
     // Never through a link: what that leads to is somebody else's.
     const int fd = open(partialPath.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
