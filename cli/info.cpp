@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +39,9 @@ struct Facts {
     double finestErrorMetres = 0;
     /// Of meshes with colours, by level from the coarsest; none without.
     std::vector<double> colourReachMetres = {};
+    /// Of meshes, by level from the coarsest: mesh::Node's of the same names.
+    std::vector<double> normalErrorDegrees = {};
+    std::vector<double> normalErrorMeanDegrees = {};
     std::uint64_t tunedLeafTriangles = 0;  ///< of meshes; 0: not tuned
     std::optional<terrain::ImagerySummary> imagery;
     std::uint64_t materials = 0;  ///< of a mesh, that are more than a colour
@@ -66,23 +70,21 @@ absl::StatusOr<Facts> terrainFacts(const std::string& path, const page::SourceOp
 }
 
 /// The most of a level's nodes, from the root down.
-std::vector<double> colourReachOf(const mesh::EymFile& file) {
-    std::vector<double> byLevel;
-    if (!file.hasColours())
-        return byLevel;
-    byLevel.resize(static_cast<std::size_t>(file.levels()));
+template <typename ValueOf>
+std::vector<double> byLevel(const mesh::EymFile& file, const ValueOf& valueOf) {
+    std::vector<double> most(static_cast<std::size_t>(file.levels()));
     std::vector<std::pair<std::uint32_t, std::size_t>> left = {{0, 0}};
     while (!left.empty()) {
         const auto [index, level] = left.back();
         left.pop_back();
         const mesh::Node& node = file.nodes()[index];
-        byLevel[level] = std::max(byLevel[level], double{node.colourReachMetres()});
+        most[level] = std::max(most[level], double{valueOf(node)});
         if (node.isLeaf())
             continue;
         for (const std::int32_t child : {node.left, node.right})
             left.emplace_back(static_cast<std::uint32_t>(child), level + 1);
     }
-    return byLevel;
+    return most;
 }
 
 absl::StatusOr<Facts> meshFacts(const std::string& path, const page::SourceOptions& sources) {
@@ -90,23 +92,28 @@ absl::StatusOr<Facts> meshFacts(const std::string& path, const page::SourceOptio
     double worst = 0;
     for (const mesh::ImageRecord& image : file.images())
         worst = std::max(worst, double{image.shape.rmsError});
-    return Facts{.kind = "mesh",
-                 .bounds = file.bounds(),
-                 .unit = "triangles",
-                 .count = file.triangleCount(),
-                 .triangles = file.triangleCount(),
-                 .levels = file.levels(),
-                 .crs = "",
-                 .bytes = file.fileBytes(),
-                 .coarsestErrorMetres = file.coarsestErrorMetres(),
-                 .finestErrorMetres = file.finestErrorMetres(),
-                 .colourReachMetres = colourReachOf(file),
-                 .tunedLeafTriangles = file.tunedLeafTriangles(),
-                 .imagery = {},
-                 .materials = file.materials().size(),
-                 .textures = file.images().size(),
-                 .textureRmsError = worst,
-                 .lights = file.lights().count()};
+    return Facts{
+        .kind = "mesh",
+        .bounds = file.bounds(),
+        .unit = "triangles",
+        .count = file.triangleCount(),
+        .triangles = file.triangleCount(),
+        .levels = file.levels(),
+        .crs = "",
+        .bytes = file.fileBytes(),
+        .coarsestErrorMetres = file.coarsestErrorMetres(),
+        .finestErrorMetres = file.finestErrorMetres(),
+        .colourReachMetres = file.hasColours()
+                                 ? byLevel(file, std::mem_fn(&mesh::Node::colourReachMetres))
+                                 : std::vector<double>(),
+        .normalErrorDegrees = byLevel(file, std::mem_fn(&mesh::Node::normalErrorDegrees)),
+        .normalErrorMeanDegrees = byLevel(file, std::mem_fn(&mesh::Node::normalErrorMeanDegrees)),
+        .tunedLeafTriangles = file.tunedLeafTriangles(),
+        .imagery = {},
+        .materials = file.materials().size(),
+        .textures = file.images().size(),
+        .textureRmsError = worst,
+        .lights = file.lights().count()};
 }
 
 absl::StatusOr<Facts> dataFacts(const std::string& path, const page::SourceOptions& sources) {
@@ -137,6 +144,9 @@ JsonObject toJson(const Facts& facts) {
                                    .number("finest", facts.finestErrorMetres));
     if (!facts.colourReachMetres.empty())
         json.numbers("colourReachMetres", facts.colourReachMetres);
+    if (!facts.normalErrorDegrees.empty())
+        json.numbers("normalErrorDegrees", facts.normalErrorDegrees)
+            .numbers("normalErrorMeanDegrees", facts.normalErrorMeanDegrees);
     if (facts.tunedLeafTriangles > 0)
         json.count("tunedLeafTriangles", facts.tunedLeafTriangles);
     if (facts.materials > 0)
@@ -164,6 +174,10 @@ void printFacts(const std::string& name, const Facts& facts) {
     if (!facts.colourReachMetres.empty())
         fmt::print("  colours     from within {:.3g} m at the coarsest\n",
                    facts.colourReachMetres.front());
+    if (!facts.normalErrorDegrees.empty())
+        fmt::print("  normals     off by at most {:.3g} degrees, {:.3g} on average over a node\n",
+                   *std::ranges::max_element(facts.normalErrorDegrees),
+                   *std::ranges::max_element(facts.normalErrorMeanDegrees));
     if (facts.tunedLeafTriangles > 0)
         fmt::print("  leaves      of at most {} triangles, which was measured to be fastest\n",
                    facts.tunedLeafTriangles);

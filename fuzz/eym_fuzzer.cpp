@@ -94,7 +94,7 @@ void checkTables(const std::uint8_t* data, std::size_t size) {
         return;
     std::memcpy(&header, file.data(), sizeof header);
     header.magic = mesh::kEymMagic;
-    header.version = mesh::versionOf(header.flags);
+    header.version = mesh::kEymVersion;
     header.headerBytes = sizeof header;
     header.fileBytes = file.size();
     header.checksum = mesh::headerChecksum(header);

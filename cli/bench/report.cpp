@@ -119,7 +119,8 @@ std::string framesCsv(const std::vector<BenchRun>& runs) {
     std::string csv =
         "asked,tau,renderers,pass,seconds,milliseconds,cull,draw,readback,encode,triangles,points,"
         "nodes,"
-        "nodesHidden,pagesLoaded,bytesLoaded,tauAchieved,beyondTau,complete,budgetMs,predictedMs,"
+        "nodesHidden,pagesLoaded,bytesLoaded,tauAchieved,beyondTau,complete,normalDegrees,"
+        "normalMeanDegrees,budgetMs,predictedMs,"
         "budgetTau,latency\n";
     for (const BenchRun& run : runs)
         for (const PlayedFrame& frame : run.played.frames) {
@@ -127,12 +128,13 @@ std::string framesCsv(const std::vector<BenchRun>& runs) {
             const fabric::StageMilliseconds& ms = s.milliseconds;
             csv += fmt::format(
                 "{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{},{:d},{:d},"
-                "{},"
+                "{},{},{},"
                 "{:.3f}\n",
                 run.label, run.tauPixels, run.renderers, frame.pass, frame.seconds,
                 frame.milliseconds, ms.cull, ms.draw, ms.readback, ms.encode, s.triangles, s.points,
                 s.nodes, s.nodesHidden, s.pagesLoaded, s.bytesLoaded, s.tauAchievedPixels,
-                isBeyondTau(frame), s.complete, budgetColumns(s.budget), frame.latencyMilliseconds);
+                isBeyondTau(frame), s.complete, s.normalErrorDegrees, s.normalErrorMeanDegrees,
+                budgetColumns(s.budget), frame.latencyMilliseconds);
         }
     return csv;
 }

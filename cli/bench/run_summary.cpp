@@ -117,6 +117,10 @@ void count(const PlayedFrame& frame, RunSummary& summary) {
     summary.bytesLoaded += statistics.bytesLoaded;
     summary.bytesLoadedFirstPass += frame.pass == 0 ? statistics.bytesLoaded : 0;
     summary.tauAchievedMax = std::max(summary.tauAchievedMax, statistics.tauAchievedPixels);
+    summary.normalErrorDegreesMax =
+        std::max(summary.normalErrorDegreesMax, statistics.normalErrorDegrees);
+    summary.normalErrorMeanDegreesMax =
+        std::max(summary.normalErrorMeanDegreesMax, statistics.normalErrorMeanDegrees);
     summary.framesBeyond += isBeyondTau(frame) ? 1 : 0;
     summary.framesEmpty += showsSomething(frame) ? 0 : 1;
     summary.trianglesMean += static_cast<double>(statistics.triangles);

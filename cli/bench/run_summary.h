@@ -49,7 +49,10 @@ struct RunSummary {
     double tauAchievedMax = 0;               ///< the error promised for every frame, pixels
     std::uint64_t framesBeyond = 0;          ///< that promise more than was asked, and say so
     std::uint64_t framesEmpty = 0;           ///< that show nothing of the scene
-    Percentiles tauAchieved;                 ///< of the measured passes, pixels
+    /// Of meshes, of the worst frame: fabric::FrameStatistics' of the same names.
+    double normalErrorDegreesMax = 0;
+    double normalErrorMeanDegreesMax = 0;
+    Percentiles tauAchieved;  ///< of the measured passes, pixels
     /// Share of the frames, from the end of the first second of drawing on, that took no longer
     /// than 1.2 times the frame time to hold; NaN where there was none.
     double withinBudget = 0;

@@ -95,6 +95,8 @@ JsonObject toJson(const BenchRun& run, const std::vector<UniformLevel>& uniform)
         .count("peakResidentBytes", run.played.peakResidentBytes)
         .number("tauAchievedMax", summary.tauAchievedMax)
         .object("tauAchieved", toJson(summary.tauAchieved))
+        .number("normalErrorDegreesMax", summary.normalErrorDegreesMax)
+        .number("normalErrorMeanDegreesMax", summary.normalErrorMeanDegreesMax)
         .count("framesBeyondTau", summary.framesBeyond)
         .count("framesEmpty", summary.framesEmpty);
     if (run.budgetMilliseconds > 0)

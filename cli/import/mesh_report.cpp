@@ -22,6 +22,8 @@ std::vector<JsonObject> levelsJson(const import::MeshImportReport& made) {
                              .count("triangles", level.trianglesAfter)
                              .number("errorMetres", level.largestErrorMetres)
                              .number("colourReachMetres", level.largestReachMetres)
+                             .number("normalErrorDegrees", level.normals.most)
+                             .number("normalErrorMeanDegrees", level.normals.mean)
                              .number("borderShare", level.points.borderShare())
                              .number("stayingShare", level.points.stayingShare()));
     return levels;

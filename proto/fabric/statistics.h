@@ -55,6 +55,11 @@ struct FrameStatistics {
     std::uint64_t pagesMissing = 0;       ///< coarser data stand in for them
     std::uint64_t pagesFailed = 0;        ///< those of the missing that could not be read
     std::uint64_t tilesDecodedOnGpu = 0;  ///< of terrain, in place of the CPU
+    /// Of meshes: bound on the angle between the normals of what is drawn, as blended from
+    /// vertices', and the source's within the error there; and on its mean over any node that is
+    /// drawn.
+    double normalErrorDegrees = 0;
+    double normalErrorMeanDegrees = 0;
     StageMilliseconds milliseconds;
     std::optional<BudgetUse> budget = {};  ///< where a frame had one to keep
 
@@ -62,7 +67,7 @@ struct FrameStatistics {
 };
 
 /// Adds what another channel of the same frame did. Times take the maximum (channels run side by
-/// side), counts add up, the error is the worst.
+/// side), counts add up, errors are the worst.
 inline void accumulate(FrameStatistics& sum, const FrameStatistics& part) {
     sum.tauAskedPixels = std::max(sum.tauAskedPixels, part.tauAskedPixels);
     sum.tauAchievedPixels = std::max(sum.tauAchievedPixels, part.tauAchievedPixels);
@@ -76,6 +81,8 @@ inline void accumulate(FrameStatistics& sum, const FrameStatistics& part) {
     sum.pagesMissing += part.pagesMissing;
     sum.pagesFailed += part.pagesFailed;
     sum.tilesDecodedOnGpu += part.tilesDecodedOnGpu;
+    sum.normalErrorDegrees = std::max(sum.normalErrorDegrees, part.normalErrorDegrees);
+    sum.normalErrorMeanDegrees = std::max(sum.normalErrorMeanDegrees, part.normalErrorMeanDegrees);
     StageMilliseconds& ms = sum.milliseconds;
     ms.cull = std::max(ms.cull, part.milliseconds.cull);
     ms.draw = std::max(ms.draw, part.milliseconds.draw);

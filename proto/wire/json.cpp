@@ -124,6 +124,8 @@ std::string statisticsJson(const fabric::FrameStatistics& statistics, int width,
   "pagesMissing": {},
   "pagesFailed": {},
   "tilesDecodedOnGpu": {},
+  "normalErrorDegrees": {},
+  "normalErrorMeanDegrees": {},
   "milliseconds": {},
   "limitingStage": "{}",
   "renderer": {}
@@ -133,6 +135,7 @@ std::string statisticsJson(const fabric::FrameStatistics& statistics, int width,
         statistics.complete, statistics.triangles, statistics.points, statistics.nodes,
         statistics.nodesHidden, statistics.pagesLoaded, statistics.bytesLoaded,
         statistics.pagesMissing, statistics.pagesFailed, statistics.tilesDecodedOnGpu,
+        number(statistics.normalErrorDegrees), number(statistics.normalErrorMeanDegrees),
         millisecondsJson(statistics.milliseconds), fabric::limitingStage(statistics.milliseconds),
         deviceJson(device));
 }

@@ -81,6 +81,8 @@ v1::FrameStatistics toMessage(const fabric::FrameStatistics& statistics) {
     message.set_pages_missing(statistics.pagesMissing);
     message.set_pages_failed(statistics.pagesFailed);
     message.set_tiles_decoded_on_gpu(statistics.tilesDecodedOnGpu);
+    message.set_normal_error_degrees(statistics.normalErrorDegrees);
+    message.set_normal_error_mean_degrees(statistics.normalErrorMeanDegrees);
     *message.mutable_milliseconds() = toMessage(statistics.milliseconds);
     if (statistics.budget) {
         v1::BudgetUse& budget = *message.mutable_budget();
@@ -115,6 +117,17 @@ absl::StatusOr<fabric::FrameStatistics> fromMessage(const v1::FrameStatistics& m
         return absl::InvalidArgumentError(
             fmt::format("statistics.pages_failed is {}; it must be at most pages_missing, {}",
                         statistics.pagesFailed, statistics.pagesMissing));
+    if (!(message.normal_error_degrees() >= 0 && message.normal_error_degrees() <= 180))
+        return absl::InvalidArgumentError(
+            fmt::format("statistics.normal_error_degrees is {}; it must be 0 to 180",
+                        message.normal_error_degrees()));
+    if (!(message.normal_error_mean_degrees() >= 0 &&
+          message.normal_error_mean_degrees() <= message.normal_error_degrees()))
+        return absl::InvalidArgumentError(fmt::format(
+            "statistics.normal_error_mean_degrees is {}; it must be 0 to normal_error_degrees, {}",
+            message.normal_error_mean_degrees(), message.normal_error_degrees()));
+    statistics.normalErrorDegrees = message.normal_error_degrees();
+    statistics.normalErrorMeanDegrees = message.normal_error_mean_degrees();
     ASSIGN_OR_RETURN(statistics.milliseconds, fromMessage(message.milliseconds()));
     if (message.has_budget()) {
         ASSIGN_OR_RETURN(statistics.budget, fromMessage(message.budget()));

@@ -303,6 +303,13 @@ absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const F
 
 absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
                                 fabric::FrameStatistics& statistics) {
+    for (const Piece& piece : pieces) {
+        const mesh::Node& node = file_->nodes()[piece.index];
+        statistics.normalErrorDegrees =
+            std::max(statistics.normalErrorDegrees, double{node.normalErrorDegrees});
+        statistics.normalErrorMeanDegrees =
+            std::max(statistics.normalErrorMeanDegrees, double{node.normalErrorMeanDegrees});
+    }
     const bool isWhole = file_->materials().empty() ||
                          frame.shading == fabric::Shading::Wireframe || isTinted(frame);
     if (!isWhole)

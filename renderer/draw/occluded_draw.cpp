@@ -157,6 +157,7 @@ absl::Status OccludedDraw::drawAgain(const ChannelDraw& channel, Pieces early, c
     early.insert(early.end(), late.begin(), late.end());
     std::inplace_merge(early.begin(), early.begin() + middle, early.end());
     statistics.triangles = statistics.points = statistics.nodes = 0;
+    statistics.normalErrorDegrees = statistics.normalErrorMeanDegrees = 0;
     begin(channel);
     return drawPieces(early, statistics);
 }

@@ -47,6 +47,7 @@ void addLevels(std::vector<mesh::LodLevel>& to, const std::vector<mesh::LodLevel
     for (std::size_t i = 0; i < from.size(); ++i) {
         to[i].nodes += from[i].nodes;
         to[i].points += from[i].points;
+        to[i].normals.hold(from[i].normals);
         to[i].trianglesBefore += from[i].trianglesBefore;
         to[i].trianglesAfter += from[i].trianglesAfter;
         to[i].largestErrorMetres = std::max(to[i].largestErrorMetres, from[i].largestErrorMetres);

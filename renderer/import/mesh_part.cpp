@@ -164,6 +164,7 @@ absl::StatusOr<WrittenPart> writeAbove(const PartWork& work, const SplitNode& no
         const double bound = std::max(left.boundSteps, right.boundSteps);
         const mesh::Lattice& lattice = work.spool.lattice;
         lod.geometry.resize(1);
+        lod.normalErrors.resize(1);
         lod.errorMetres = {lattice.errorMetres() + bound * lattice.stepMetres};
         lod.colourReachMetres = {std::max(left.reachMetres, right.reachMetres)};
         written.surface.isEndless = true;
@@ -197,6 +198,7 @@ absl::StatusOr<WrittenPart> writeAbove(const PartWork& work, const SplitNode& no
     lod.points.resize(1);
     lod.errorMetres.resize(1);
     lod.colourReachMetres.resize(1);
+    lod.normalErrors.resize(1);
     ASSIGN_OR_RETURN(written.offset, appendEym(work, both.mesh, tree, lod,
                                                {{written.surface.pockets}, {}}, control.stop));
     return written;

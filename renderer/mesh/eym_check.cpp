@@ -21,6 +21,8 @@
 namespace eyrie::mesh {
 namespace {
 
+constexpr float kHalfTurnDegrees = 180;
+
 absl::Status checkCounts(const EymHeader& header) {
     if (header.lidCount > kMostLids)
         return damaged("header.lidCount", header.lidCount, fmt::format("at most {}", kMostLids));
@@ -121,6 +123,15 @@ absl::Status NodeCheck::checkBox(std::uint32_t index) const {
         (node.colourReach != 0 && (header_.flags & kHasColours) == 0))
         return damaged(fmt::format("node {}: colourReach", index), node.colourReachMetres(),
                        "a finite length; 0 without colours");
+    const float most = node.isLeaf() || !node.hasGeometry() ? 0 : kHalfTurnDegrees;
+    if (!(node.normalErrorDegrees >= 0 && node.normalErrorDegrees <= most))
+        return damaged(fmt::format("node {}: normalErrorDegrees", index), node.normalErrorDegrees,
+                       fmt::format("0 to {}", most));
+    if (!(node.normalErrorMeanDegrees >= 0 &&
+          node.normalErrorMeanDegrees <= node.normalErrorDegrees))
+        return damaged(fmt::format("node {}: normalErrorMeanDegrees", index),
+                       node.normalErrorMeanDegrees,
+                       fmt::format("0 to {}, the most", node.normalErrorDegrees));
     return absl::OkStatus();
 }
 
@@ -335,11 +346,11 @@ absl::Status checkHeader(std::span<const std::byte> beginning, std::uint64_t fil
     RETURN_IF_ERROR(checkKind(beginning));
     EymHeader header;
     std::memcpy(&header, beginning.data(), sizeof header);
-    if (header.version != versionOf(header.flags))
-        return absl::InvalidArgumentError(fmt::format(
-            "header.version is {}, this build reads {}, or, of meshes without spots, {} and, "
-            "without colours, {}; import the mesh again with this build",
-            header.version, kEymVersion, kSpotlessVersion, kColourlessVersion));
+    if (header.version != kEymVersion)
+        return absl::InvalidArgumentError(
+            fmt::format("header.version is {}, this build reads {}; import the mesh again with "
+                        "this build",
+                        header.version, kEymVersion));
     if (header.headerBytes != sizeof(EymHeader))
         return damaged("header.headerBytes", header.headerBytes, sizeof(EymHeader));
     if (header.fileBytes != fileBytes)

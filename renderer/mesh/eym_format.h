@@ -23,8 +23,7 @@
 #include "renderer/mesh/node_block.h"
 #include "renderer/page/page_source.h"
 
-/// The .eym file, version 6: a mesh as a kd-tree of LOD nodes, each with pages of its own. Without
-/// spots it is as version 5 had it, and then without colours as version 4, and says so (versionOf).
+/// The .eym file, version 7: a mesh as a kd-tree of LOD nodes, each with pages of its own.
 ///
 /// Little-endian:
 ///   EymHeader                       256 bytes
@@ -51,9 +50,7 @@ namespace eyrie::mesh {
 static_assert(std::endian::native == std::endian::little, ".eym files are mapped as they are");
 
 inline constexpr std::array<char, 8> kEymMagic = {'E', 'Y', 'M', 'E', 'S', 'H', '\0', '\x01'};
-inline constexpr std::uint32_t kEymVersion = 6;
-inline constexpr std::uint32_t kSpotlessVersion = 5;
-inline constexpr std::uint32_t kColourlessVersion = 4;
+inline constexpr std::uint32_t kEymVersion = 7;
 
 /// In EymHeader::flags.
 inline constexpr std::uint32_t kHasColours = 1;
@@ -62,14 +59,6 @@ inline constexpr std::uint32_t kHasExact = 4;        ///< leaves have source pos
 inline constexpr std::uint32_t kExactIsFloat64 = 8;  ///< ... in double precision
 inline constexpr std::uint32_t kHasTextures = 16;    ///< vertices have texture coordinates
 inline constexpr std::uint32_t kHasCones = 32;       ///< there is one for each light
-
-/// Of a file with these EymHeader::flags. Version 4 has no bound on where colours come from, which
-/// without colours is 0; version 5 has no cones.
-constexpr std::uint32_t versionOf(std::uint32_t flags) {
-    if ((flags & kHasCones) != 0)
-        return kEymVersion;
-    return (flags & kHasColours) != 0 ? kSpotlessVersion : kColourlessVersion;
-}
 
 /// Levels a tree may have, so that a walk may recurse: the median split of 2^30 triangles makes 31.
 inline constexpr int kMaxTreeDepth = 64;
@@ -134,6 +123,12 @@ struct Node {
     /// sees no backs (back_faces.h) but through a lid: these need not be drawn. 0 where the mesh
     /// has materials: their ranges say it.
     std::uint32_t frontIndexCount = 0;
+    /// Upper bound on the angle between the normal at any point of the node's own geometry, as
+    /// blended from its vertices', and that of a point of the source within errorMetres, as blended
+    /// from the leaves'. 0 of leaves and without geometry, 180 where nothing is known.
+    float normalErrorDegrees = 0;
+    /// Upper bound on the mean of that angle over the area of the node's geometry.
+    float normalErrorMeanDegrees = 0;
 
     /// At any point of what is drawn for this node the colour of its vertices, channel by channel
     /// and as displayed, is within 8/255 of those that the source has within this distance, or
@@ -150,7 +145,7 @@ struct Node {
     bool isOfPoints() const { return vertexCount > 0 && indexCount == 0; }
     bool operator==(const Node&) const = default;
 };
-static_assert(sizeof(Node) == 112);
+static_assert(sizeof(Node) == 120);
 
 /// The first points of a node, and what Node::errorMetres is of these alone. Ranges of a node have
 /// more points and less error one after the other; the last has all of both.

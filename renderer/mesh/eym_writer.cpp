@@ -221,6 +221,8 @@ std::vector<Node> layOutNodes(const KdTree& tree, const LodTree& lod,
         node.frontIndexCount = pages[i].frontIndexCount;
         if (!node.hasGeometry())
             continue;
+        node.normalErrorDegrees = roundedUp(lod.normalErrors[i].most);
+        node.normalErrorMeanDegrees = roundedUp(lod.normalErrors[i].mean);
         place(pages[i].page, node.pageOffset, node.pageBytes, node.pageChecksum);
         node.blockChecksum = pages[i].blockChecksum;
         if (!pages[i].exact.empty())
@@ -389,7 +391,6 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     header.pointRangesChecksum = contentHash(std::as_bytes(std::span(pointRanges)));
     if (!lights.empty())
         header.lightsChecksum = contentHash(bytesOf(lights, cones));
-    header.version = versionOf(header.flags);
     header.sourceHash = options.sourceHash;
     header.fileBytes = end;
     header.checksum = headerChecksum(header);

@@ -8,6 +8,7 @@
 #include "fabric/depth_merge.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_synth.h"
+#include "renderer/mesh/eym_format.h"
 #include "renderer/renderer.h"
 #include "tests/support/renderer.h"
 #include "tests/support/temporary_folder.h"
@@ -37,10 +38,11 @@ protected:
     }
 
     fabric::ChannelResult draw(const fabric::Look& look, const fabric::Range& range = {},
-                               fabric::Shading shading = fabric::Shading::Smooth) {
+                               fabric::Shading shading = fabric::Shading::Smooth,
+                               double tauPixels = 0.5) {
         fabric::FrameData frame;
         frame.camera = {.eye = {1.9, 1.2, 0.8}, .target = {0, 0.2, 0}};
-        frame.tauPixels = 0.5;
+        frame.tauPixels = tauPixels;
         frame.look = look;
         frame.shading = shading;
         fabric::ChannelTask task;
@@ -94,6 +96,20 @@ TEST_P(MeshLook, BoundsAreLinesOverThePictureAndCountAsNothing) {
     EXPECT_EQ(lined.statistics.nodes, plain.statistics.nodes);
     EXPECT_EQ(lined.statistics.triangles, plain.statistics.triangles);
     EXPECT_TRUE(draw({}).image == plain.image) << "nothing of a look stays behind";
+}
+
+/// As the file has it: of the nodes that are drawn, which are coarser where more error is allowed.
+TEST_P(MeshLook, SaysHowFarNormalsMayBeOff) {
+    const auto file = mesh::EymFile::open(folder_.path("ball.eym"));
+    ASSERT_TRUE(file.ok()) << file.status();
+    const fabric::FrameStatistics finest = draw({}, {}, fabric::Shading::Smooth, 0.01).statistics;
+    EXPECT_EQ(finest.normalErrorDegrees, 0);
+    EXPECT_EQ(finest.normalErrorMeanDegrees, 0);
+    const fabric::FrameStatistics coarsest = draw({}, {}, fabric::Shading::Smooth, 1000).statistics;
+    ASSERT_EQ(coarsest.nodes, 1U);
+    EXPECT_GT(coarsest.normalErrorMeanDegrees, 0);
+    EXPECT_EQ(coarsest.normalErrorDegrees, double{file->nodes()[0].normalErrorDegrees});
+    EXPECT_EQ(coarsest.normalErrorMeanDegrees, double{file->nodes()[0].normalErrorMeanDegrees});
 }
 
 TEST_P(MeshLook, TintsChangeColoursAlone) {

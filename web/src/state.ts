@@ -70,6 +70,9 @@ export interface Numbers {
   /** The tau that it was given for that. */
   budgetTau: number;
   tauAchieved: number;
+  /** How far normals of meshes may turn from the source's: on average over any node, and at most. */
+  normalMeanDegrees: number;
+  normalDegrees: number;
   complete: boolean;
   /** Pages that coarser data stand in for, and those of them that could not be read. */
   pagesMissing: number;

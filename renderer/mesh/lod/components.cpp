@@ -175,19 +175,17 @@ void Dropper::run(std::size_t target, double limitSteps) {
         left -= pieces_[way.piece].triangles.size();
         patch_.shifts[way.receiver].hold(Shifts().andThen(static_cast<float>(way.bound)));
     }
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < patch_.triangles.size(); ++i) {
-        if (!isThere_[pieceOf_[i]])
-            continue;
-        patch_.triangles[kept] = patch_.triangles[i];
-        if (!patch_.tints.empty())
-            patch_.tints[kept] = patch_.tints[i];
-        patch_.shifts[kept++] = patch_.shifts[i];
-    }
-    patch_.triangles.resize(kept);
-    patch_.shifts.resize(kept);
-    if (!patch_.tints.empty())
-        patch_.tints.resize(kept);
+    const auto keepThose = [&](auto& ofTriangles) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < ofTriangles.size(); ++i)
+            if (isThere_[pieceOf_[i]])
+                ofTriangles[kept++] = ofTriangles[i];
+        ofTriangles.resize(kept);
+    };
+    keepThose(patch_.triangles);
+    keepThose(patch_.shifts);
+    keepThose(patch_.tints);
+    keepThose(patch_.normals);
 }
 
 }  // namespace

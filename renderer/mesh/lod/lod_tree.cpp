@@ -13,6 +13,7 @@
 
 #include "renderer/mesh/lod/components.h"
 #include "renderer/mesh/lod/patch_colours.h"
+#include "renderer/mesh/lod/patch_normals.h"
 #include "renderer/mesh/lod/sheet_ends.h"
 #include "renderer/mesh/lod/simplify.h"
 
@@ -46,6 +47,30 @@ bool hasMoreVerticesThan(std::size_t most, const std::vector<Triangle>& triangle
     return static_cast<std::size_t>(end - vertices.begin()) > most;
 }
 
+template <typename T>
+void appendAll(std::vector<T>& to, const std::vector<T>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+}
+
+/// All triangles of both.
+void append(const PackedMesh& mesh, Patch& to, Patch from) {
+    if (to.tints.empty() != from.tints.empty()) {
+        to.tints = tintsOf(mesh, to);
+        from.tints = tintsOf(mesh, from);
+    }
+    if (to.triangles.size() + from.triangles.size() > kMostSampled) {
+        to.normals = {};  // memory that nothing comes of
+        from.normals = {};
+    } else if (to.normals.empty() != from.normals.empty()) {
+        to.normals = normalChangesOf(mesh, to);
+        from.normals = normalChangesOf(mesh, from);
+    }
+    appendAll(to.triangles, from.triangles);
+    appendAll(to.shifts, from.shifts);
+    appendAll(to.tints, from.tints);
+    appendAll(to.normals, from.normals);
+}
+
 class Builder {
 public:
     Builder(const PackedMesh& mesh, const KdTree& tree, const LodOptions& options,
@@ -61,6 +86,7 @@ public:
           staying_(whereOthersEnd(mesh, SheetEnds(mesh, options.goesOnAt))) {
         lod_.geometry.resize(tree.nodes.size());
         lod_.points.resize(tree.nodes.size());
+        lod_.normalErrors.resize(tree.nodes.size());
         errorSteps_.resize(tree.nodes.size());
         reachSteps_.resize(tree.nodes.size());
     }
@@ -75,7 +101,7 @@ private:
     std::optional<Simplified> simplifiedOrNothing(const LodPart& part, const KdNode& node);
     LodLevel& level(std::size_t height);
     void standFor(LodPart& part, std::size_t index);
-    void record(const LodPart& part, std::size_t before);
+    void record(const LodPart& part, std::size_t before, const NormalError& normals);
     double reachMetres(double steps) const;
 
     const PackedMesh& mesh_;
@@ -189,11 +215,13 @@ void Builder::standFor(LodPart& part, std::size_t index) {
             fewer ? kWorthPoints * fewer->patch.error() : std::numeric_limits<double>::infinity());
     if (lod_.points[index]) {
         part.errorSteps = std::max(part.errorSteps, lod_.points[index]->errorSteps());
+        lod_.normalErrors[index] = sampledNormalError(mesh_, part.patch);
     } else if (fewer) {
         part.patch = std::move(fewer->patch);
         ++part.height;
         lod_.geometry[index] = part.patch.triangles;
-        record(part, before);
+        lod_.normalErrors[index] = normalError(mesh_, part.patch);
+        record(part, before, lod_.normalErrors[index]);
     }
     part.errorSteps = std::max(part.errorSteps, part.patch.error());
     part.reachSteps = std::max(part.reachSteps, colourReach(mesh_, part.patch));
@@ -208,7 +236,7 @@ LodLevel& Builder::level(std::size_t height) {
     return lod_.levels[height - 1];
 }
 
-void Builder::record(const LodPart& part, std::size_t before) {
+void Builder::record(const LodPart& part, std::size_t before, const NormalError& normals) {
     const std::lock_guard lock(mutex_);
     LodLevel& level = this->level(part.height);
     ++level.nodes;
@@ -219,6 +247,7 @@ void Builder::record(const LodPart& part, std::size_t before) {
         std::max(level.largestErrorMetres, errorSteps * mesh_.lattice.stepMetres);
     level.largestReachMetres =
         std::max(level.largestReachMetres, reachMetres(colourReach(mesh_, part.patch)));
+    level.normals.hold(normals);
     done_ += before;
     // Each level has about half the triangles of the one below: two thirds of a mesh's in all.
     if (progress_)

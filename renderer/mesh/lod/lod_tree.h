@@ -13,6 +13,7 @@
 
 #include "renderer/mesh/kd_tree.h"
 #include "renderer/mesh/lod/patch.h"
+#include "renderer/mesh/lod/patch_normals.h"
 #include "renderer/mesh/lod/point_sample.h"
 #include "renderer/mesh/lod/simplify.h"
 #include "renderer/mesh/packed_mesh.h"
@@ -54,6 +55,7 @@ struct LodLevel {
     std::uint64_t trianglesAfter = 0;
     double largestErrorMetres = 0;
     double largestReachMetres = 0;  ///< of LodTree::colourReachMetres
+    NormalError normals;            ///< the greatest of its nodes, and the greatest mean
     PointCounts points;             ///< of its nodes, those included that nothing came of
 };
 
@@ -76,6 +78,8 @@ struct LodTree {
     /// within kColourTolerance of those that the source has within this, or within the error where
     /// that is more. 0 where it is so within the error. Never below the children's.
     std::vector<double> colourReachMetres;
+    /// Of what stands for a node itself; 0 of others.
+    std::vector<NormalError> normalErrors;
     std::vector<LodLevel> levels;  ///< from the finest
 
     /// Nodes that points stand for.

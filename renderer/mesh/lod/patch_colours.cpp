@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -11,11 +10,6 @@
 
 namespace eyrie::mesh {
 namespace {
-
-template <typename T>
-void appendAll(std::vector<T>& to, const std::vector<T>& from) {
-    to.insert(to.end(), from.begin(), from.end());
-}
 
 std::uint32_t withoutAlpha(std::uint32_t colour) {
     fabric::Rgba parts = unpackColour(colour);
@@ -29,7 +23,7 @@ std::uint32_t withoutAlpha(std::uint32_t colour) {
 /// which there are two at most, light changes by less than 2t times what the corners differ by:
 /// most as displayed where they are darkest. A third of all weights is the least that the greatest
 /// has.
-float reachShare(const LightRange& shown) {
+float reachShare(const FieldRange& shown) {
     float least = 1.0F / 3;
     for (int k = 0; k < 3; ++k) {
         const float tolerable = (2 * std::sqrt(shown.least[k]) + kMostTint) * kMostTint;
@@ -40,8 +34,8 @@ float reachShare(const LightRange& shown) {
     return 1 - least;
 }
 
-std::array<Light3, 3> lightsOf(const PackedMesh& mesh, const Triangle& triangle) {
-    std::array<Light3, 3> lights;
+std::array<FieldValue, 3> lightsOf(const PackedMesh& mesh, const Triangle& triangle) {
+    std::array<FieldValue, 3> lights;
     for (std::size_t k = 0; k < 3; ++k)
         lights[k] = lightOf(unpackColour(mesh.colours[triangle[k]]));
     return lights;
@@ -70,30 +64,20 @@ bool hasOneColour(const PackedMesh& mesh, const Patch& patch) {
     });
 }
 
-std::vector<Tints> tintsOf(const PackedMesh& mesh, const Patch& patch) {
+std::vector<FieldChanges> tintsOf(const PackedMesh& mesh, const Patch& patch) {
     if (!patch.tints.empty())
         return patch.tints;
-    std::vector<Tints> tints;
+    std::vector<FieldChanges> tints;
     tints.reserve(patch.triangles.size());
     for (const Triangle& triangle : patch.triangles)
         tints.emplace_back(rangeOf(lightsOf(mesh, triangle)));
     return tints;
 }
 
-void append(const PackedMesh& mesh, Patch& to, Patch from) {
-    if (to.tints.empty() != from.tints.empty()) {
-        to.tints = tintsOf(mesh, to);
-        from.tints = tintsOf(mesh, from);
-    }
-    appendAll(to.triangles, from.triangles);
-    appendAll(to.shifts, from.shifts);
-    appendAll(to.tints, from.tints);
-}
-
 double colourReach(const PackedMesh& mesh, const Patch& patch) {
     double reach = 0;
     for (std::size_t i = 0; i < patch.tints.size(); ++i) {
-        const LightRange shown = rangeOf(lightsOf(mesh, patch.triangles[i]));
+        const FieldRange shown = rangeOf(lightsOf(mesh, patch.triangles[i]));
         if (isOff(patch.tints[i], shown))
             reach =
                 std::max(reach, double{reachShare(shown)} * longestSide(mesh, patch.triangles[i]));

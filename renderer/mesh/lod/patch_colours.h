@@ -18,15 +18,15 @@ inline constexpr float kColourTolerance = 8.0F / 255;
 inline constexpr float kMostTint = kColourTolerance - 0.5F / 255;
 
 /// Whether a triangle that shows `shown` shows a wrong colour somewhere.
-inline bool isOff(const Tints& tints, const LightRange& shown) {
-    return tints.most(shown) > kMostTint;
+inline bool isOff(const FieldChanges& tints, const FieldRange& shown) {
+    return mostTint(tints, shown) > kMostTint;
 }
 
 /// Of the longest side of a triangle that shows `shown`: at any of its points a colour is shown
 /// that is within kMostTint of those of its corners within this.
-float reachShare(const LightRange& shown);
+float reachShare(const FieldRange& shown);
 
-std::array<Light3, 3> lightsOf(const PackedMesh& mesh, const Triangle& triangle);
+std::array<FieldValue, 3> lightsOf(const PackedMesh& mesh, const Triangle& triangle);
 
 /// Lattice steps.
 double longestSide(const PackedMesh& mesh, const Triangle& triangle);
@@ -36,10 +36,7 @@ bool hasOneColour(const PackedMesh& mesh, const Patch& patch);
 
 /// One a triangle. Of a patch without any they are those of the source's triangles, of which it
 /// then consists, or which have one colour.
-std::vector<Tints> tintsOf(const PackedMesh& mesh, const Patch& patch);
-
-/// All triangles of both.
-void append(const PackedMesh& mesh, Patch& to, Patch from);
+std::vector<FieldChanges> tintsOf(const PackedMesh& mesh, const Patch& patch);
 
 /// Lattice steps: at any point of the patch the colour shown is within kMostTint of that of the
 /// point's partner, or of those that the source has at vertices within this. 0 where no triangle is

@@ -18,8 +18,10 @@
 #include <glm/vec3.hpp>
 
 #include "renderer/mesh/lod/patch_colours.h"
+#include "renderer/mesh/lod/patch_normals.h"
 #include "renderer/mesh/lod/star.h"
 #include "renderer/mesh/lod/star_colours.h"
+#include "renderer/mesh/lod/star_field.h"
 #include "renderer/mesh/vertex_packing.h"
 
 namespace eyrie::mesh {
@@ -88,13 +90,17 @@ private:
     bool isOpen() const;
     bool isSimple(std::size_t target);
     std::pair<std::size_t, double> cheapest(std::uint32_t point, const Star& star,
-                                            const std::optional<StarColours>& colours,
+                                            const std::optional<StarField>& colours,
                                             std::uint32_t excluded) const;
     Collapse bestCollapse(std::uint32_t point, bool mustBeSimple);
     void count(std::uint32_t point);
     Star star(std::uint32_t point) const;
     Shifts shiftsOf(const Star& star, const Star::Replaced& replaced) const;
-    std::optional<StarColours> coloursAround(std::uint32_t point) const;
+    template <typename ValueAt>
+    StarField fieldAround(std::uint32_t point, std::span<const FieldChanges> changes,
+                          const ValueAt& valueAt) const;
+    std::optional<StarField> coloursAround(std::uint32_t point) const;
+    StarField normalsAround(std::uint32_t point) const;
     bool collapse(std::uint32_t point, std::uint32_t target);
     void moveCorners(std::uint32_t from, std::uint32_t onto, std::uint32_t vertex);
     template <typename Visit>
@@ -102,8 +108,9 @@ private:
 
     const PackedMesh& mesh_;
     std::vector<Face> faces_;
-    std::vector<Shifts> shifts_;  ///< of a face
-    std::vector<Tints> tints_;    ///< of a face; none where there is but one colour
+    std::vector<Shifts> shifts_;         ///< of a face
+    std::vector<FieldChanges> tints_;    ///< of a face; none where there is but one colour
+    std::vector<FieldChanges> normals_;  ///< of a face
     std::vector<glm::dvec3> points_;
     std::vector<CornerId> corners_;  ///< of all points; what was replaced is left behind
     std::vector<Corners> around_;    ///< of a point; some may be of faces that are gone
@@ -122,7 +129,10 @@ private:
 
 Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch,
                        std::span<const std::uint8_t> staying)
-    : mesh_(mesh), shifts_(patch.shifts), left_(patch.triangles.size()) {
+    : mesh_(mesh),
+      shifts_(patch.shifts),
+      normals_(normalChangesOf(mesh, patch)),
+      left_(patch.triangles.size()) {
     if (!hasOneColour(mesh, patch))
         tints_ = tintsOf(mesh, patch);
     faces_.reserve(left_);
@@ -284,29 +294,48 @@ Shifts Simplifier::shiftsOf(const Star& star, const Star::Replaced& replaced) co
     return moved(before, star, replaced.shift);
 }
 
-/// Those of the star of the point whose ring_ this is; nothing where there is but one.
-std::optional<StarColours> Simplifier::coloursAround(std::uint32_t point) const {
-    std::optional<StarColours> colours;
-    if (tints_.empty())
-        return colours;
-    const auto lightAt = [&](const Face& face, std::uint32_t at) {
-        const auto corner = std::ranges::find(face.corners, at, &Corner::point);
-        return lightOf(unpackColour(mesh_.colours[corner->vertex]));
+/// `valueAt`, of a vertex, on the star of the point whose ring_ this is, with what `changes` has of
+/// its faces.
+template <typename ValueAt>
+StarField Simplifier::fieldAround(std::uint32_t point, std::span<const FieldChanges> changes,
+                                  const ValueAt& valueAt) const {
+    const auto vertexAt = [&](std::uint32_t face, std::uint32_t at) {
+        return std::ranges::find(faces_[face].corners, at, &Corner::point)->vertex;
+    };
+    StarField field(valueAt(vertexAt(ring_[0].face, point)));
+    std::uint32_t last = kNone;
+    FieldValue value{};
+    // Where a triangle ends the next begins, mostly with the same vertex.
+    const auto next = [&](std::uint32_t vertex) {
+        if (std::exchange(last, vertex) != vertex)
+            value = valueAt(vertex);
+        return value;
     };
     for (const Neighbour& neighbour : ring_) {
-        const Face& face = faces_[neighbour.face];
-        if (!colours)
-            colours.emplace(lightAt(face, point));
-        colours->add(lightAt(face, neighbour.point), lightAt(face, neighbour.next),
-                     tints_[neighbour.face]);
+        const FieldValue from = next(neighbour.vertex);
+        field.add(from, next(vertexAt(neighbour.face, neighbour.next)), changes[neighbour.face]);
     }
-    return colours;
+    return field;
+}
+
+/// Nothing where there is but one.
+std::optional<StarField> Simplifier::coloursAround(std::uint32_t point) const {
+    if (tints_.empty())
+        return std::nullopt;
+    return fieldAround(point, tints_, [&](std::uint32_t vertex) {
+        return lightOf(unpackColour(mesh_.colours[vertex]));
+    });
+}
+
+StarField Simplifier::normalsAround(std::uint32_t point) const {
+    return fieldAround(point, normals_,
+                       [&](std::uint32_t vertex) { return normalOf(mesh_, vertex); });
 }
 
 /// The ring's place with the least cost that is not in `excluded`; the ring's size if there is
 /// none. The cost is the greatest bound, on how far points or colours are off, that it makes.
 std::pair<std::size_t, double> Simplifier::cheapest(std::uint32_t point, const Star& star,
-                                                    const std::optional<StarColours>& colours,
+                                                    const std::optional<StarField>& colours,
                                                     std::uint32_t excluded) const {
     struct Way {
         std::size_t target;
@@ -328,7 +357,7 @@ std::pair<std::size_t, double> Simplifier::cheapest(std::uint32_t point, const S
         // The triangle that the centre lands in takes the points of all.
         double least = moved(before, star, landing->shift).longest();
         if (colours) {
-            const auto [tint, reach] = colours->landing(star, target, *landing);
+            const auto [tint, reach] = colourAtCentre(*colours, star, target, *landing);
             length *= 1 + double{tint / kColourTolerance};
             least = std::max(least, reach);
         }
@@ -353,7 +382,7 @@ std::pair<std::size_t, double> Simplifier::cheapest(std::uint32_t point, const S
                 (outcome[i].shift.least < there.least || outcome[i].shift.most > there.most))
                 cost = std::max(cost, shiftsOf(star, outcome[i]).longest() + length);
         if (colours && cost < best.second)
-            cost = std::max(cost, colours->reach(star, target, landing, outcome) + length);
+            cost = std::max(cost, colourReach(*colours, star, target, landing, outcome) + length);
         if (cost < best.second)
             best = {target, cost};
     }
@@ -367,7 +396,7 @@ Collapse Simplifier::bestCollapse(std::uint32_t point, bool mustBeSimple) {
     const Star star = this->star(point);
     if (!star.isFlat())
         return {};
-    const std::optional<StarColours> colours = coloursAround(point);
+    const std::optional<StarField> colours = coloursAround(point);
     for (std::uint32_t excluded = 0;;) {
         const auto [target, cost] = cheapest(point, star, colours, excluded);
         if (target == ring_.size())
@@ -388,19 +417,22 @@ bool Simplifier::collapse(std::uint32_t point, std::uint32_t target) {
     const auto place = static_cast<std::size_t>(to - ring_.begin());
     if (!isSimple(place))
         return false;
+    for (const Neighbour& neighbour : ring_) __builtin_prefetch(&normals_[neighbour.face]);
     Star::Outcome outcome;
     const Star star = this->star(point);
     const Star::Landing landing = *star.landing(place);
     star.moveTo(place, landing, outcome);
     std::array<Shifts, kMaxStar> shifts;
     for (std::size_t i = 0; i < ring_.size(); ++i) shifts[i] = shiftsOf(star, outcome[i]);
-    if (const auto colours = coloursAround(point)) {
-        StarColours::Outcome tints;
-        colours->moveTo(star, place, landing, outcome, tints);
-        for (std::size_t i = 0; i < ring_.size(); ++i)
-            if (outcome[i].triangles != 0)
-                tints_[ring_[i].face] = tints[i];
-    }
+    const auto follow = [&](const StarField& field, std::vector<FieldChanges>& changes) {
+        field.forLeft(star, place, landing, outcome,
+                      [&](std::size_t i, const FieldChanges& now, const FieldRange&) {
+                          changes[ring_[i].face] = now;
+                      });
+    };
+    if (const auto colours = coloursAround(point))
+        follow(*colours, tints_);
+    follow(normalsAround(point), normals_);
     for (std::size_t i = 0; i < ring_.size(); ++i) {
         Face& face = faces_[ring_[i].face];
         shifts_[ring_[i].face] = shifts[i];
@@ -472,6 +504,7 @@ Simplified Simplifier::run(std::size_t target) {
         result.patch.shifts.push_back(shifts_[i]);
         if (!tints_.empty())
             result.patch.tints.push_back(tints_[i]);
+        result.patch.normals.push_back(normals_[i]);
     }
     return result;
 }

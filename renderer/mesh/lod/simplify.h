@@ -40,8 +40,8 @@ struct Simplified {
 /// beside edges that stay there are as many triangles as before, and the inside is not to make up
 /// for them. Where more points stay than may go, as in soups, only as many count. What is left
 /// keeps its promise (patch.h): each step is a map as described there, and their distances add up,
-/// as do changes of colours. Where these are too much, the bound is how far away the colours come
-/// from (patch_colours.h).
+/// as do changes of colours and normals. Where those of colours are too much, the bound is how far
+/// away the colours come from (patch_colours.h).
 ///
 /// Stay: vertices on the border, so that the patch fits its neighbours whatever is done to them;
 /// those where more than two sheets meet, or normals, colours, texture coordinates or materials are

@@ -90,6 +90,8 @@ TEST(StatisticsJson, HasTheDesignsFieldsAsPlainNumbers) {
     statistics.pagesMissing = 3;
     statistics.pagesFailed = 2;
     statistics.tilesDecodedOnGpu = 9;
+    statistics.normalErrorDegrees = 31.5;
+    statistics.normalErrorMeanDegrees = 2.25;
     statistics.milliseconds = {0.5, 20, 1, 0, 21.5, 7, 13};
     const auto json = parsed(statisticsJson(
         statistics, 1280, 720, {"Mesa \"x\"", "llvmpipe", "4.5", "surfaceless", true}));
@@ -107,6 +109,8 @@ TEST(StatisticsJson, HasTheDesignsFieldsAsPlainNumbers) {
     EXPECT_EQ(number("pagesMissing"), 3);
     EXPECT_EQ(number("pagesFailed"), 2);
     EXPECT_EQ(number("tilesDecodedOnGpu"), 9);
+    EXPECT_EQ(number("normalErrorDegrees"), 31.5);
+    EXPECT_EQ(number("normalErrorMeanDegrees"), 2.25);
     EXPECT_TRUE(json.fields().at("complete").bool_value());
     const auto& milliseconds = json.fields().at("milliseconds").struct_value().fields();
     EXPECT_EQ(milliseconds.at("draw").number_value(), 20);

@@ -12,7 +12,9 @@ namespace eyrie::wire {
 namespace {
 
 fabric::FrameStatistics sample() {
-    return {1, 2.5, false, 10, 20, 30, 8, 40, 4000, 6, 5, 7, {0.1, 0.2, 0.3, 0.4, 1.5, 0.15, 0.05}};
+    return {1,  2.5, false, 10,   20,
+            30, 8,   40,    4000, 6,
+            5,  7,   31.5,  2.25, {0.1, 0.2, 0.3, 0.4, 1.5, 0.15, 0.05}};
 }
 
 TEST(WireStatistics, ComeBackAsTheyWere) {
@@ -48,6 +50,14 @@ TEST(WireStatistics, ARefusalNamesTheField) {
     message.set_pages_failed(7);
     EXPECT_THAT(std::string(fromMessage(message).status().message()),
                 testing::HasSubstr("statistics.pages_failed"));
+    message = toMessage(sample());
+    message.set_normal_error_degrees(181);
+    EXPECT_THAT(std::string(fromMessage(message).status().message()),
+                testing::HasSubstr("statistics.normal_error_degrees is 181"));
+    message = toMessage(sample());
+    message.set_normal_error_mean_degrees(32);
+    EXPECT_THAT(std::string(fromMessage(message).status().message()),
+                testing::HasSubstr("statistics.normal_error_mean_degrees is 32"));
     message = toMessage(sample());
     message.mutable_milliseconds()->set_draw(-1);
     EXPECT_THAT(std::string(fromMessage(message).status().message()),

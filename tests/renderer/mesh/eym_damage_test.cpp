@@ -261,9 +261,22 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
         {"a reach of colours that are not there",
          [](Tables& t) {
              t.header.flags &= ~kHasColours;
-             t.header.version = versionOf(t.header.flags);
              t.nodes[0].colourReach = 0x3F80;
          }},
+        {"normals less off than not at all",
+         [](Tables& t) { t.nodes[0].normalErrorDegrees = t.nodes[0].normalErrorMeanDegrees = -1; }},
+        {"normals off by no angle",
+         [](Tables& t) {
+             t.nodes[0].normalErrorDegrees = std::numeric_limits<float>::quiet_NaN();
+         }},
+        {"normals off by more than half a turn",
+         [](Tables& t) { t.nodes[0].normalErrorDegrees = 181; }},
+        {"normals more off on average than at most",
+         [](Tables& t) {
+             t.nodes[0].normalErrorDegrees = 20;
+             t.nodes[0].normalErrorMeanDegrees = 21;
+         }},
+        {"a leaf's normals off", [](Tables& t) { t.nodes.back().normalErrorDegrees = 1; }},
         {"range with a gap", [](Tables& t) { t.nodes[1].triangleEnd -= 1; }},
         {"empty range", [](Tables& t) { t.nodes[0].triangleEnd = 0; }},
         {"other triangle count", [](Tables& t) { t.header.triangleCount += 1; }},
@@ -303,12 +316,12 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
     }
 }
 
-TEST(EymDamage, ColoursOfAnEarlierVersionAreRefusedForTheirBound) {
+TEST(EymDamage, AnEarlierVersionIsRefusedForItsBounds) {
     const test::TemporaryFolder folder;
     const std::string& bytes = smallFile();
     Tables tables(bytes);
     EXPECT_EQ(tables.header.version, kEymVersion);
-    tables.header.version = kColourlessVersion;
+    --tables.header.version;
     test::writeFile(folder.file("m.eym"), tables.sealedInto(bytes));
     const absl::Status status = readAll(folder.file("m.eym"));
     EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);

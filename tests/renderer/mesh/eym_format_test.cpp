@@ -260,12 +260,6 @@ TEST(EymFile, KeepsHowFarColoursReach) {
         EXPECT_LE(double{node.colourReachMetres()}, lod->colourReachMetres[i] * 1.01);
         EXPECT_EQ(node.farthestMetres(), std::max(node.errorMetres, node.colourReachMetres()));
     }
-    // Without colours files are as they were before these had a bound.
-    mesh.colours.clear();
-    std::ranges::fill(lod->colourReachMetres, 0.0);
-    ASSERT_TRUE(writeAs("plain.eym").ok());
-    EXPECT_EQ(test::readFile(folder.file("plain.eym"))[8], '\4');
-    EXPECT_EQ(test::readFile(folder.file("m.eym"))[8], '\5');
 }
 
 TEST(EymFile, CountsOnlyVerticesThatTrianglesUse) {

@@ -17,6 +17,11 @@ export function pixels(value: number): string {
   return `${value >= 9.995 ? value.toFixed(1) : value.toFixed(2)} px`;
 }
 
+/** Of half a turn at most: "7.5°", "27°". */
+export function degrees(value: number): string {
+  return `${value >= 9.95 ? value.toFixed(0) : value.toFixed(1)}°`;
+}
+
 export function milliseconds(value: number): string {
   if (Number.isNaN(value)) return "–";
   return `${value >= 9.95 ? value.toFixed(0) : value.toFixed(1)} ms`;

@@ -8,7 +8,7 @@ import type { Connection, Numbers } from "../state";
 import { count, deviceName, milliseconds, pixels } from "./format";
 import { bannerFor, lossText, messageFor } from "./message";
 import { sentText, triangleText } from "./numbers";
-import { budgetHint, tauHint } from "./quality";
+import { budgetHint, normalsText, tauHint } from "./quality";
 import { readoutOf } from "./readout";
 import { degradedText, missingText, rendererLine, statusOf } from "./status";
 
@@ -163,6 +163,8 @@ const numbers: Numbers = {
   predictedMilliseconds: 0,
   budgetTau: 0,
   tauAchieved: 1,
+  normalMeanDegrees: 0,
+  normalDegrees: 0,
   complete: true,
   pagesMissing: 0,
   pagesFailed: 0,
@@ -223,6 +225,16 @@ describe("numbers", () => {
     expect([NaN, 4.24, 33.3].map(milliseconds)).toEqual(["–", "4.2 ms", "33 ms"]);
     expect(triangleText(412_000, 1_740_000)).toBe("412 k of 1.74 M");
     expect(deviceName("NVIDIA H200/PCIe/SSE2")).toBe("NVIDIA H200");
+  });
+});
+
+describe("normals drawn", () => {
+  it("are said to be off where meshes are not in full detail", () => {
+    expect(normalsText(null)).toBeNull();
+    expect(normalsText(numbers)).toBeNull();
+    const off = { ...numbers, normalMeanDegrees: 7.46, normalDegrees: 180 };
+    expect(normalsText(off)?.value).toBe("7.5° on average");
+    expect(normalsText(off)?.title).toContain("at most 180° anywhere");
   });
 });
 

@@ -3,7 +3,7 @@
 import { Shading } from "../protocol/messages";
 import type { Numbers, State } from "../state";
 import { byId, make, setText } from "./element";
-import { milliseconds, pixels } from "./format";
+import { degrees, milliseconds, pixels } from "./format";
 
 /** The slider holds log2(tau): from a quarter of a pixel to sixteen. */
 const minLog = -2;
@@ -143,6 +143,28 @@ function tauAchieved(state: State): HTMLElement {
   return make("div", "field", make("div", "row", label, value), hint);
 }
 
+/** How far normals of meshes may be off, and what says more; null where they are the source's. */
+export function normalsText(numbers: Numbers | null): { value: string; title: string } | null {
+  if (numbers === null || numbers.normalDegrees === 0) return null;
+  return {
+    value: `${degrees(numbers.normalMeanDegrees)} on average`,
+    title: `A bound on how far the normals of meshes, which light goes by, are turned from the source's: on average over any part, and by at most ${degrees(numbers.normalDegrees)} anywhere. Error allowed does not hold it`,
+  };
+}
+
+function normalsDrawn(state: State): HTMLElement {
+  const label = make("span", "label", "Normals drawn");
+  const value = make("span", "value");
+  const field = make("div", "field", make("div", "row", label, value));
+  state.numbers.watch((numbers) => {
+    const text = normalsText(numbers);
+    field.hidden = text === null;
+    setText(value, text?.value ?? "");
+    label.title = text?.title ?? "";
+  });
+  return field;
+}
+
 function shadingChoice(state: State): HTMLElement {
   const choice = make("fieldset", "segments", make("legend", "label", "Shading"));
   for (const [shading, name] of shadings) {
@@ -165,6 +187,7 @@ export function showQuality(state: State): void {
     timeAchieved(state),
     tauSlider(state),
     tauAchieved(state),
+    normalsDrawn(state),
     shadingChoice(state),
   );
 }

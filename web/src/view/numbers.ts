@@ -28,6 +28,8 @@ export function numbersOf(frame: Frame, seen: Seen, limitedBefore: string): Numb
     predictedMilliseconds: statistics?.budget?.predictedMilliseconds ?? 0,
     budgetTau: statistics?.budget?.tauPixels ?? 0,
     tauAchieved: statistics?.tauAchieved ?? 0,
+    normalMeanDegrees: statistics?.normalErrorMeanDegrees ?? 0,
+    normalDegrees: statistics?.normalErrorDegrees ?? 0,
     complete: statistics?.complete ?? true,
     pagesMissing: Number(statistics?.pagesMissing ?? 0n),
     pagesFailed: Number(statistics?.pagesFailed ?? 0n),

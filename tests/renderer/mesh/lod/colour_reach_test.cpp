@@ -13,53 +13,29 @@
 #include <gtest/gtest.h>
 
 #include "renderer/import/mesh_synth.h"
-#include "renderer/import/pack_mesh.h"
 #include "renderer/mesh/lod/lod_tree.h"
 #include "renderer/mesh/lod/patch_colours.h"
 #include "renderer/mesh/vertex_packing.h"
+#include "tests/renderer/mesh/lod/sample_levels.h"
 
 namespace eyrie::mesh {
 namespace {
 
-constexpr std::uint32_t kNodeTriangles = 512;
-
 using fabric::Rgba;
 using fabric::Vec3;
-
-struct Levels {
-    PackedMesh mesh;
-    KdTree tree;
-    LodTree lod;
-};
+using test::Levels;
 
 /// Of `colour` at each vertex, or of none.
 Levels levelsOf(import::TriangleMesh source, const std::function<Rgba(const Vec3&)>& colour,
-                const LodOptions& options = {.nodeTriangles = kNodeTriangles}) {
+                const LodOptions& options = {.nodeTriangles = test::kNodeTriangles}) {
     if (colour)
         for (const Vec3& at : source.positions) source.colours.push_back(colour(at));
-    import::PackCounts counts;
-    auto mesh = import::packMesh(std::move(source), counts);
-    EXPECT_TRUE(mesh.ok()) << mesh.status();
-    auto tree = buildKdTree(mesh->positions, mesh->triangles, {options.nodeTriangles / 4});
-    EXPECT_TRUE(tree.ok());
-    auto lod = buildLodTree(*mesh, *tree, options);
-    EXPECT_TRUE(lod.ok());
-    return {*std::move(mesh), *std::move(tree), *std::move(lod)};
+    return test::levelsOf(std::move(source), options);
 }
 
-/// A plane of so many cells a side, each two triangles and a metre wide.
-import::TriangleMesh plane(std::uint32_t cells){import::TriangleMesh mesh;
-for (std::uint32_t y = 0; y <= cells; ++y)
-    for (std::uint32_t x = 0; x <= cells; ++x) {
-        mesh.positions.emplace_back(x, y, 0);
-        if (x == cells || y == cells)
-            continue;
-        const std::uint32_t at = y * (cells + 1) + x;
-        mesh.triangles.push_back({at, at + 1, at + cells + 2});
-        mesh.triangles.push_back({at, at + cells + 2, at + cells + 1});
-    }
-return mesh;
-}  // namespace
+auto plane(std::uint32_t cells) {
+    return test::sheet(cells, [](std::uint32_t, std::uint32_t) { return 0.0; });
+}
 
 std::function<Rgba(const Vec3&)> checks(double side) {
     return [side](const Vec3& at) {
@@ -301,26 +277,10 @@ TEST(ColourReach, HoldsWhereVerticesOfOnePlaceHaveSeveralColours) {
     EXPECT_GT(checkLaw(levelsOf(std::move(source), {})).nodes, 10U);
 }
 
-/// A soup, of which pieces go and nodes are points.
 TEST(ColourReach, HoldsOfPointsAndOfWhatLosesPieces) {
-    import::TriangleMesh source = import::synthesizeMesh(2000, 5);
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> share(0, 1);
-    const std::size_t ball = source.positions.size();
-    for (int i = 0; i < 1000; ++i) {
-        const auto first = static_cast<std::uint32_t>(source.positions.size());
-        const double size = 0.01 + 0.05 * share(random);
-        const Vec3 foot = source.positions[random() % ball] * (1 + 0.1 * share(random));
-        for (const Vec3& corner : {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
-            source.positions.push_back(foot + size * corner);
-        for (const Triangle& face : {Triangle{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}})
-            source.triangles.push_back({first + face[0], first + face[1], first + face[2]});
-    }
-    const Levels pieces = levelsOf(source, checks(0.2));
+    const Levels pieces = levelsOf(test::ballWithPieces(), checks(0.2));
     EXPECT_GT(checkLaw(pieces).nodes, 3U);
-    const Levels levels = levelsOf(
-        std::move(source), checks(0.2),
-        {.nodeTriangles = kNodeTriangles, .sampledTriangles = kNodeTriangles, .nodePoints = 300});
+    const Levels levels = levelsOf(test::ballWithPieces(), checks(0.2), test::kWithPoints);
     EXPECT_GT(levels.lod.pointNodes(), 3U);
     EXPECT_GT(checkLaw(levels).nodes, 3U);
 }
@@ -366,5 +326,5 @@ TEST(ColourReach, IsNoneOfColoursThatChangeEvenly) {
     EXPECT_LE(levels.lod.levels[4].trianglesAfter, levels.mesh.triangles.size() / 20);
 }
 
-}  // namespace eyrie::mesh
+}  // namespace
 }  // namespace eyrie::mesh
