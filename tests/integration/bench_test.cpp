@@ -5,7 +5,10 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <string>
+#include <vector>
 
+#include <absl/strings/str_split.h>
 #include <gmock/gmock.h>
 
 #include "tests/support/image_files.h"
@@ -173,6 +176,19 @@ TEST_F(Bench, EveryFrameOfTheTestFlightsKeepsItsPromiseAtEveryTau) {
                 EXPECT_EQ(number(run, "framesMeasured"), 24);
                 EXPECT_TRUE(test::at(run, "measuredWithinPromise").bool_value());
             }
+            // Of terrain, and of meshes in full detail, normals are the source's.
+            const auto normals = [](const test::JsonValue& run) {
+                return number(run, "normalErrorMeanDegreesMax");
+            };
+            if (std::string(data) == "all.eym")
+                EXPECT_GT(normals(runs[4]), 0);
+            else
+                EXPECT_EQ(normals(runs[4]), 0);
+            const auto frames = test::readFile(report + "/frames.csv");
+            ASSERT_TRUE(frames.ok()) << frames.status();
+            const std::vector<std::string> lines = absl::StrSplit(*frames, '\n');
+            ASSERT_EQ(lines.size(), 1U + 5 * 2 * 24 + 1);
+            EXPECT_EQ(std::ranges::count(lines[0], ','), std::ranges::count(lines[1], ','));
         }
 }
 

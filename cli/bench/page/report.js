@@ -30,7 +30,8 @@ function rowGroups() {
   const measured = (value) => (run) => (run.errorPx ? value(run) : "–");
   const groups = [
     ["Promised", ["error of every frame, at most, px", (run) => number(run.tauAchievedMax)], ["half of the warm frames, at most, px", (run) => number(run.tauAchieved.p50)], ["95 in 100 of them", (run) => number(run.tauAchieved.p95)],
-      ["frames that promise more than tau", (run) => number(run.framesBeyondTau)]],
+      ["frames that promise more than tau", (run) => number(run.framesBeyondTau)],
+      ["normals of meshes, on average over any node, degrees", (run) => (run.normalErrorDegreesMax > 0 ? number(run.normalErrorMeanDegreesMax) : "–")]],
     ["Measured against the source", ["median, px", measured((run) => number(run.errorPx.p50))], ["p99 of the worst frame, px", measured((run) => number(run.errorPx.p99))],
       ["worst pixel, px", measured((run) => number(run.errorPx.max))], ["outline, at most, px", measured((run) => number(run.silhouettePx))],
       ["holes, false hits, misplaced, pixels", measured((run) => `${number(run.holes)}, ${number(run.falseHits)}, ${number(run.misplaced)}`)],
