@@ -212,7 +212,16 @@ TEST_F(BadInput, ScenesThatCannotBeAreRefusedByFileAndField) {
          fmt::format(R"({{"objects":[{{"mesh":"{}","transform":{{"translation":[1,2,"NaN"]}}}}]}})",
                      mesh),
          {"translation"}},
+        {"far.json",
+         fmt::format(
+             R"({{"objects":[{{"name":"star","mesh":"{}","transform":{{"scale":1e15}}}}]}})", mesh),
+         {"star", "metres", "transform"}},
+        {"endless.json",
+         fmt::format(
+             R"({{"objects":[{{"name":"all","mesh":"{}","transform":{{"scale":1e300}}}}]}})", mesh),
+         {"all", "metres"}},
     };
+    const std::set<std::string> opened = {"missing.json", "far.json", "endless.json"};
     for (const Case& one : cases) {
         folder_.write(one.name, one.content);
         Words named = one.named;
