@@ -427,7 +427,10 @@ TEST_F(BadInput, RenderersThatCannotOpenTheDataAreNotWaitedFor) {
     const std::string file = folder_.write("ball.eym", whole->substr(0, whole->size() / 2));
     expectRefused({"render", file, "--camera", good("camera.json"), "--size", "32x32",
                    "--renderers", "2", "-o", bad("out.png")},
-                  {"renderer can draw this", "ball.eym"}, kWorkFailed);
+                  {"renderer can draw this", "ball.eym"});
+    expectRefused({"bench", file, "--size", "32x32", "--frames", "2", "--renderers", "1", "-o",
+                   bad("report")},
+                  {"renderer can draw this", "ball.eym"});
 }
 
 TEST_F(BadInput, WithoutEglRenderSaysWhatToInstall) {
