@@ -12,6 +12,7 @@
 #include "cli/data_cache.h"
 #include "cli/json_object.h"
 #include "cli/progress_bar.h"
+#include "cli/options/whole_number.h"
 #include "cli/stop_signal.h"
 #include "fabric/status.h"
 #include "renderer/import/geotiff_writer.h"
@@ -142,6 +143,7 @@ Kind addKind(CLI::App& parent, const char* name, const char* description, Run& r
         ->required();
     command->add_flag("--quiet", options->quiet, "No progress");
     command->add_flag("--json", options->json, "Print what was made as JSON");
+        ->transform(wholeNumber())
     command->callback([options, make, &run] { run = [options, make] { return make(*options); }; });
     return {command, options};
 }

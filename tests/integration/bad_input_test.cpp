@@ -323,6 +323,11 @@ TEST_F(BadInput, UnknownCommandsAndOptionsAreRefused) {
             {"synth", "mesh", "--size", "100", "--roughness", roughness, "-o", bad("out.ply")},
             {"--roughness"});
     expectRefused({"synth", "terrain", "--size", "0", "-o", bad("out.tif")}, {"--size"});
+    for (const char* seed : {"-1", "18446744073709551616", "1.5"})
+        expectRefused({"synth", "terrain", "--size", "9", "--seed", seed, "-o", bad("out.tif")},
+                      {"--seed", seed, "whole number"});
+    expectRefused({"serve", good("ball.eym"), "--max-scene-triangles", "-1"},
+                  {"--max-scene-triangles", "whole number"});
     for (const char* metres : {"nan", "inf", "-1"})
         expectRefused({"synth", "mesh", "--from", good_->path("ball.ply"), "--displace", metres,
                        "-o", bad("out.ply")},
