@@ -298,6 +298,8 @@ TEST_F(BadInput, ConfigurationsThatCannotBeAreRefusedByPlaceAndNotConverted) {
     expectRenderRefused({"--config", ring}, {"ring.eqc:3:1: error:", "--config"});
     expectRenderRefused({"--config", fine}, {"--config", "fine.eqc has no canvas"});
     expectRefused({"check", fine, "--convert", bad("out.txt")}, {"--convert", ".eqc or .json"});
+    expectRefused({"check", fine, "--convert", bad("fine.eqc")}, {"--convert", "the same file"});
+    EXPECT_EQ(*test::readFile(fine), "config { node { pipe {} } }");
     expectRefused({"check", fine, "--convert", bad("none/out.json")}, {"none/out.json"});
     ASSERT_EQ(mkfifo(bad("pipe").c_str(), 0600), 0);
     expectRefused({"check", bad("pipe")}, {"no regular file"});
