@@ -145,6 +145,8 @@ absl::Status finish(Outputs& outputs, const DrawnBands& drawn, const Options& op
         RETURN_IF_ERROR(outputs.depth->commit());
     RETURN_IF_ERROR(writeStatistics(statistics, options, stop));
     RETURN_IF_ERROR(outputs.picture->commit());
+    if (!drawn.whyEmpty.empty() && !options.pictures.quiet)
+        fmt::print(stderr, "{}: {}\n", options.out, drawn.whyEmpty);
     if (options.json)
         fmt::print("{}\n", statistics);
     else if (!options.pictures.quiet)
