@@ -279,7 +279,18 @@ absl::Status renderFlight(const Options& options) {
         options.scene, options.pictures, request, stop.token());
 }
 
+/// One process shares a frame with nobody.
+void noteIdleCompound(const PictureSourceOptions& pictures) {
+    const ConfigOptions& config = pictures.config;
+    if (pictures.renderers <= 1 && config.file.empty() && !pictures.quiet &&
+        config.compound != ConfigOptions().compound)
+        fmt::print(stderr,
+                   "--compound {} has no effect: one process draws; --renderers says how many do\n",
+                   config.compound);
+}
+
 absl::Status renderAsAsked(const Options& options) {
+    noteIdleCompound(options.pictures);
     if (!options.camera.empty() && !options.flight.empty())
         return absl::InvalidArgumentError(
             "name either --camera, for a picture, or --flight, for a video");
