@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <memory>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/configuration_file.h"
 #include "cli/image_files.h"
+#include "cli/own_places.h"
 #include "coordinator/compound/plan_check.h"
 #include "coordinator/config/configuration_message.h"
 #include "coordinator/config/eqc_writer.h"
@@ -39,6 +41,8 @@ absl::Status convert(const config::Configuration& configuration, const std::stri
 
 absl::Status checkFile(const Options& options) {
     RETURN_IF_ERROR(checkNames(options));
+    RETURN_IF_ERROR(checkOwnPlaces(std::array{NamedFile{"--convert", options.convert}},
+                                   std::array{NamedFile{"the configuration", options.file}}));
     check::Checked checked;
     checked.file = options.file;
     ASSIGN_OR_RETURN(checked.configuration, readConfiguration(options.file, checked.findings));

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "cli/bench/flights.h"
+#include "cli/output_reader.h"
 #include "cli/progress_bar.h"
 #include "fabric/status.h"
 #include "renderer/mesh/output_file.h"
@@ -58,6 +59,7 @@ absl::Status writeFlightVideo(const FlightVideo& video, const std::string& scene
         return absl::InvalidArgumentError(
             fmt::format("-o {}: a flight is written as .mp4, .mkv or .webm", video.out));
     ASSIGN_OR_RETURN(const video::Module* module, video::load());
+    ASSIGN_OR_RETURN(const OutputReader reader, OutputReader::await(video.out, stop));
     ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(video.out));
     ASSIGN_OR_RETURN(
         const auto movie,

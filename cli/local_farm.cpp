@@ -63,8 +63,8 @@ absl::Status LocalFarm::checkEnough(int count, std::ptrdiff_t alive,
     const auto first = std::ranges::find_if(all, isRefused);
     if (first == all.end())
         return absl::OkStatus();
-    return absl::FailedPreconditionError(
-        fmt::format("{} renderer can draw this: {}", alive == 0 ? "no" : "not every", first->why));
+    return {first->code, fmt::format("{} renderer can draw this: {}",
+                                     alive == 0 ? "no" : "not every", first->why)};
 }
 
 absl::Status LocalFarm::awaitRenderers(int count, std::chrono::milliseconds limit,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "coordinator/frame/frame_sequence.h"
 #include "fabric/status.h"
@@ -34,6 +35,7 @@ absl::StatusOr<DrawnBands> drawInBands(
     DrawnBands drawn;
     const int most =
         static_cast<int>(std::clamp<std::int64_t>(bandPixels / request.width, 1, request.height));
+    bool isFirst = true;
     coordinator::FrameSequence bands;
     bands.atOnce = pictures.framesAtOnce();
     bands.draw = [&](const auto& choose) { return pictures.drawLatest(choose); };
@@ -50,6 +52,9 @@ absl::StatusOr<DrawnBands> drawInBands(
         RETURN_IF_ERROR(band.drawn.status());
         accumulateNext(drawn.statistics, band.drawn->statistics);
         drawn.device = band.drawn->device;
+        const std::string_view why = coordinator::whyEmpty(*band.drawn);
+        if (std::exchange(isFirst, false) || why.empty())
+            drawn.whyEmpty = why;
         return take(band.drawn->image);
     };
     RETURN_IF_ERROR(coordinator::drawSequence(bands));

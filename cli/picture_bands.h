@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string_view>
 
 #include <absl/status/statusor.h>
 
@@ -18,6 +19,7 @@ struct DrawnBands {
     /// worst band's.
     fabric::FrameStatistics statistics;
     fabric::DeviceInfo device;
+    std::string_view whyEmpty = {};  ///< coordinator::whyEmpty() where no band shows anything
 };
 
 /// Draws what `request` asks for as bands of whole rows, from the top down, several at the same

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/quota_options.h"
 
+#include "cli/options/whole_number.h"
 #include "cli/values.h"
 #include "fabric/status.h"
 
@@ -28,6 +29,7 @@ void addQuotaOptions(CLI::App& command, QuotaOptions& options) {
     command
         .add_option("--max-scene-triangles", options.sceneTriangles,
                     "Of such a scene, at full resolution; 0: any number")
+        ->transform(wholeNumber())
         ->capture_default_str();
     command
         .add_option("--max-calls-per-second", options.callsPerSecond,

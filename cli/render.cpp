@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "cli/image_files.h"
 #include "cli/occlusion_option.h"
 #include "cli/options/one_of.h"
+#include "cli/output_reader.h"
 #include "cli/own_places.h"
 #include "cli/picture_bands.h"
 #include "cli/picture_source.h"
@@ -113,8 +115,11 @@ struct Outputs {
 };
 
 absl::StatusOr<Outputs> createOutputs(const Options& options,
-                                      const coordinator::FrameRequest& request) {
+                                      const coordinator::FrameRequest& request,
+                                      const std::stop_token& stop) {
     Outputs outputs;
+    ASSIGN_OR_RETURN(const OutputReader ofPicture, OutputReader::await(options.out, stop));
+    ASSIGN_OR_RETURN(const OutputReader ofDepth, OutputReader::await(options.depth, stop));
     ASSIGN_OR_RETURN(outputs.picture,
                      PictureFile::create(options.out, request.width, request.height));
     if (!options.depth.empty()) {
@@ -124,15 +129,24 @@ absl::StatusOr<Outputs> createOutputs(const Options& options,
     return outputs;
 }
 
+absl::Status writeStatistics(const std::string& statistics, const Options& options,
+                             const std::stop_token& stop) {
+    if (options.stats.empty())
+        return absl::OkStatus();
+    ASSIGN_OR_RETURN(const OutputReader reader, OutputReader::await(options.stats, stop));
+    return writeText(statistics, options.stats);
+}
+
 absl::Status finish(Outputs& outputs, const DrawnBands& drawn, const Options& options,
-                    const coordinator::FrameRequest& request) {
+                    const coordinator::FrameRequest& request, const std::stop_token& stop) {
     const std::string statistics =
         wire::statisticsJson(drawn.statistics, request.width, request.height, drawn.device);
     if (outputs.depth)
         RETURN_IF_ERROR(outputs.depth->commit());
-    if (!options.stats.empty())
-        RETURN_IF_ERROR(writeText(statistics, options.stats));
+    RETURN_IF_ERROR(writeStatistics(statistics, options, stop));
     RETURN_IF_ERROR(outputs.picture->commit());
+    if (!drawn.whyEmpty.empty() && !options.pictures.quiet)
+        fmt::print(stderr, "{}: {}\n", options.out, drawn.whyEmpty);
     if (options.json)
         fmt::print("{}\n", statistics);
     else if (!options.pictures.quiet)
@@ -202,7 +216,7 @@ absl::Status render(const Options& options) {
     ASSIGN_OR_RETURN(const auto pictures,
                      PictureSource::open(options.scene, options.pictures, stop.token()));
     lookAtAll(*pictures, options, request);
-    ASSIGN_OR_RETURN(Outputs outputs, createOutputs(options, request));
+    ASSIGN_OR_RETURN(Outputs outputs, createOutputs(options, request, stop.token()));
     ASSIGN_OR_RETURN(
         const DrawnBands drawn,
         drawInBands(*pictures, request, kBandPixels, [&](const fabric::Image& rows) {
@@ -210,12 +224,12 @@ absl::Status render(const Options& options) {
                 return absl::Status(absl::CancelledError("stopped; nothing was written"));
             return outputs.take(rows);
         }));
-    return finish(outputs, drawn, options, request);
+    return finish(outputs, drawn, options, request, stop.token());
 }
 
 absl::Status write(const fabric::Image& image, const Options& options,
-                   const coordinator::FrameRequest& request) {
-    ASSIGN_OR_RETURN(Outputs outputs, createOutputs(options, request));
+                   const coordinator::FrameRequest& request, const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(Outputs outputs, createOutputs(options, request, stop));
     RETURN_IF_ERROR(outputs.take(image));
     if (outputs.depth)
         RETURN_IF_ERROR(outputs.depth->commit());
@@ -241,7 +255,8 @@ absl::Status renderAll(const Options& options) {
         return absl::InternalError(fmt::format("{} pictures were asked for, {} were drawn",
                                                asked.size(), frame.further.size() + 1));
     for (std::size_t i = 0; i < asked.size(); ++i) {
-        RETURN_IF_ERROR(write(i == 0 ? frame.image : frame.further[i - 1], own[i], request));
+        RETURN_IF_ERROR(
+            write(i == 0 ? frame.image : frame.further[i - 1], own[i], request, stop.token()));
         if (!options.pictures.quiet && !options.json)
             fmt::print(stderr, "{}\n", own[i].out);
     }
@@ -249,7 +264,7 @@ absl::Status renderAll(const Options& options) {
         wire::statisticsJson(frame.statistics, request.width, request.height, frame.device);
     if (options.json)
         fmt::print("{}\n", statistics);
-    return options.stats.empty() ? absl::OkStatus() : writeText(statistics, options.stats);
+    return writeStatistics(statistics, options, stop.token());
 }
 
 absl::Status renderFlight(const Options& options) {
@@ -264,7 +279,18 @@ absl::Status renderFlight(const Options& options) {
         options.scene, options.pictures, request, stop.token());
 }
 
+/// One process shares a frame with nobody.
+void noteIdleCompound(const PictureSourceOptions& pictures) {
+    const ConfigOptions& config = pictures.config;
+    if (pictures.renderers <= 1 && config.file.empty() && !pictures.quiet &&
+        config.compound != ConfigOptions().compound)
+        fmt::print(stderr,
+                   "--compound {} has no effect: one process draws; --renderers says how many do\n",
+                   config.compound);
+}
+
 absl::Status renderAsAsked(const Options& options) {
+    noteIdleCompound(options.pictures);
     if (!options.camera.empty() && !options.flight.empty())
         return absl::InvalidArgumentError(
             "name either --camera, for a picture, or --flight, for a video");

@@ -60,8 +60,8 @@ void announce(const std::string& url, const coordinator::Status& status, bool qu
     if (quiet || status.renderers.empty())
         return;
     const fabric::DeviceInfo& device = status.renderers.front().device;
-    fmt::print(stderr, "Drawing with {} ({}{}). Ctrl-C ends it.\n", device.renderer,
-               device.platform, device.software ? ", software" : "");
+    spdlog::info("drawing with {} ({}{}); Ctrl-C ends it", device.renderer, device.platform,
+                 device.software ? ", software" : "");
 }
 
 using Shown = std::vector<coordinator::CanvasStatus>;

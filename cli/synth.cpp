@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -11,6 +12,8 @@
 #include "cli/commands.h"
 #include "cli/data_cache.h"
 #include "cli/json_object.h"
+#include "cli/options/whole_number.h"
+#include "cli/output_reader.h"
 #include "cli/progress_bar.h"
 #include "cli/stop_signal.h"
 #include "fabric/status.h"
@@ -47,7 +50,9 @@ absl::Status wrongEnding(const std::string& out, std::string_view endings) {
 }
 
 void report(const Options& options, std::string_view unit, std::uint64_t count) {
-    const std::uint64_t bytes = std::filesystem::file_size(options.out);
+    std::error_code isNoFile;  // but a pipe or a device
+    const std::uint64_t size = std::filesystem::file_size(options.out, isNoFile);
+    const std::uint64_t bytes = isNoFile ? 0 : size;
     if (options.json)
         fmt::print(
             "{}\n",
@@ -108,6 +113,7 @@ absl::Status synthMesh(const Options& options) {
     if (ending != ".ply" && ending != ".eym")
         return wrongEnding(options.out, ".ply (a source) or .eym (imported)");
     RETURN_IF_ERROR(mesh::OutputFile::check(options.out));
+    ASSIGN_OR_RETURN(const OutputReader reader, OutputReader::await(options.out, stop.token()));
     ProgressBar bar(options.out, static_cast<double>(options.size) / 1e6, "M triangles",
                     ProgressBar::styleFor(options.quiet));
     const import::ImportControl control{bar.callback(), stop.token()};
@@ -136,6 +142,7 @@ Kind addKind(CLI::App& parent, const char* name, const char* description, Run& r
     CLI::App* command = parent.add_subcommand(name, description);
     command->add_option("--size", options->size, sizeHelp)->check(CLI::Range(least, most));
     command->add_option("--seed", options->seed, "The same seed makes the same data")
+        ->transform(wholeNumber())
         ->capture_default_str();
     command->add_option("-o,--output", options->out, "File to write")
         ->type_name("FILE")

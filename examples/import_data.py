@@ -29,6 +29,8 @@ def ask(server, method, path, body=None, headers=None):
             return json.load(answer)
     except urllib.error.HTTPError as error:
         raise SystemExit(json.load(error)["detail"])
+    except urllib.error.URLError as error:
+        raise SystemExit(f"{server} does not answer: {error.reason}") from None
 
 
 def begin(server, source, output):

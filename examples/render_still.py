@@ -33,6 +33,8 @@ def call(server, method, path, body=None):
     except urllib.error.HTTPError as error:
         problem = json.load(error)
         raise SystemExit(f"{problem['title']}: {problem['detail']}") from None
+    except urllib.error.URLError as error:
+        raise SystemExit(f"{server} does not answer: {error.reason}") from None
 
 
 def main():

@@ -30,6 +30,8 @@ def ask(server, path, body=None):
             return answer.read()
     except urllib.error.HTTPError as error:
         raise SystemExit(json.load(error)["detail"]) from None
+    except urllib.error.URLError as error:
+        raise SystemExit(f"{server} does not answer: {error.reason}") from None
 
 
 def render(server, camera):

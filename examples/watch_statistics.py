@@ -40,6 +40,8 @@ def main():
                 return
     except urllib.error.HTTPError as error:
         raise SystemExit(json.load(error)["detail"]) from None
+    except urllib.error.URLError as error:
+        raise SystemExit(f"{server} does not answer: {error.reason}") from None
     except KeyboardInterrupt:
         pass
 

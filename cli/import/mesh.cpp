@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/import/mesh_options.h"
 #include "cli/import/mesh_report.h"
+#include "cli/output_reader.h"
 #include "cli/progress_bar.h"
 #include "cli/several_sources.h"
 #include "cli/source_record.h"
@@ -53,6 +54,7 @@ absl::Status importMesh(const MeshImportChoices& choices) {
     StopSignal stop;
     RETURN_IF_ERROR(checkEnding(choices, ".eym"));
     ASSIGN_OR_RETURN(const import::MeshImportOptions how, importOptions(choices));
+    ASSIGN_OR_RETURN(const OutputReader reader, OutputReader::await(choices.out, stop.token()));
     MeshTuning tuning;
     import::MeshImportReport made;
     if (choices.flight.empty()) {

@@ -33,6 +33,9 @@ public:
     /// made by.
     std::shared_ptr<ActiveConfiguration> with(const std::vector<config::RendererFacts>& renderers);
 
+    /// How many it was at work with last.
+    std::size_t renderers() const { return renderers_.size(); }
+
     /// NotFound, naming what there is; FailedPrecondition before there was a renderer.
     absl::Status configure(const SwitchLayout& change);
 

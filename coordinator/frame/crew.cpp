@@ -123,8 +123,8 @@ Crew::State Crew::state() const {
     for (const Seat& seat : seats_) {
         if (isReady(seat))
             ++state.ready;
-        else if (!seat.openError.empty())
-            state.openError = seat.openError;
+        else if (!seat.openError.ok())
+            state.openError = textOf(seat.openError);
         else if (!seat.drains)
             ++state.opening;
     }
@@ -170,9 +170,10 @@ void Crew::describe(const std::string& id, RendererStatus& status) const {
         if (isReady(seat))
             status.condition =
                 seat.member->isLate() ? RendererCondition::Late : RendererCondition::Ready;
-        if (!seat.openError.empty()) {
+        if (!seat.openError.ok()) {
             status.condition = RendererCondition::Refused;
-            status.why = seat.openError;
+            status.why = textOf(seat.openError);
+            status.code = seat.openError.code();
             status.since = onTheWall(seat.since);
         }
     }
@@ -237,7 +238,7 @@ void Crew::seatNew(const std::vector<Registry::Entry>& entries) {
 }
 
 void Crew::openIn(Seat& seat) {
-    seat.openError.clear();
+    seat.openError = absl::OkStatus();
     seat.hasOtherData = false;
     seat.opened = 0;
     if (scene_->objects.empty() || seat.drains)
@@ -262,7 +263,7 @@ void Crew::noteOpened(const std::string& id, std::uint64_t revision,
         if (info.ok())
             status = seatOpened(*seat, *info);
         if (!status.ok()) {
-            seat->openError = textOf(status);
+            seat->openError = status;
             seat->since = Member::Clock::now();
         }
     }

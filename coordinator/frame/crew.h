@@ -72,7 +72,7 @@ private:
     struct Seat {
         std::shared_ptr<Member> member;
         std::uint64_t opened = 0;              ///< revision that it has open, with everybody's data
-        std::string openError;                 ///< why it has not; empty while it may yet
+        absl::Status openError;                ///< why it has not; OK while it may yet
         Member::Clock::time_point since = {};  ///< of openError
         bool hasOtherData = false;
         bool drains = false;

@@ -164,7 +164,7 @@ absl::StatusOr<DrawnFrame> FramePipeline::drawCentrally(const PlannedFrame& fram
 absl::StatusOr<fabric::SeenAreas> FramePipeline::seen(const FrameRequest& request) {
     RETURN_IF_ERROR(check(request));
     fabric::SeenAreas areas;
-    RETURN_IF_ERROR(planner_.withConfiguration([&](ActiveConfiguration& active) -> absl::Status {
+    RETURN_IF_ERROR(withConfiguration([&](ActiveConfiguration& active) -> absl::Status {
         ASSIGN_OR_RETURN(areas, active.seen(request));
         return absl::OkStatus();
     }));
@@ -200,12 +200,12 @@ std::string FramePipeline::problem(const Crew::State& state) const {
 }
 
 absl::Status FramePipeline::configure(const SwitchLayout& change) {
-    return planner_.configure(change);
+    return planner_.configure(change, crew_.ready(crew_.state().revision));
 }
 
 absl::Status FramePipeline::withConfiguration(
     const std::function<absl::Status(ActiveConfiguration&)>& use) {
-    return planner_.withConfiguration(use);
+    return planner_.withConfiguration(use, crew_.ready(crew_.state().revision));
 }
 
 Status FramePipeline::status() const {

@@ -125,14 +125,23 @@ void FramePlanner::finished(const FrameRequest& asked, const PlannedFrame& frame
         keeper.record(asked, statistics, taken.count());
 }
 
-absl::Status FramePlanner::configure(const SwitchLayout& change) {
+/// What is set before the first frame is set of what that will be made by. Renderers that are not
+/// ready while they open another scene are still counted on; frames find out who has gone.
+void FramePlanner::meet(const Members& ready) {
+    if (!ready.empty() && ready.size() >= configuration_.renderers())
+        configuration_.with(factsOf(ready));
+}
+
+absl::Status FramePlanner::configure(const SwitchLayout& change, const Members& ready) {
     const std::lock_guard lock(mutex_);
+    meet(ready);
     return configuration_.configure(change);
 }
 
 absl::Status FramePlanner::withConfiguration(
-    const std::function<absl::Status(ActiveConfiguration&)>& use) {
+    const std::function<absl::Status(ActiveConfiguration&)>& use, const Members& ready) {
     const std::lock_guard lock(mutex_);
+    meet(ready);
     return configuration_.change(use);
 }
 

@@ -49,10 +49,13 @@ public:
     void finished(const FrameRequest& asked, const PlannedFrame& frame,
                   const fabric::FrameStatistics& statistics, Clock::time_point begun);
 
-    /// From the next frame on. Errors: those of ConfigurationKeeper::configure.
-    absl::Status configure(const SwitchLayout& change);
+    /// From the next frame on; `ready` as for plan(). Errors: those of
+    /// ConfigurationKeeper::configure.
+    absl::Status configure(const SwitchLayout& change,
+                           const std::vector<std::shared_ptr<Member>>& ready);
     /// As ConfigurationAccess::withConfiguration.
-    absl::Status withConfiguration(const std::function<absl::Status(ActiveConfiguration&)>& use);
+    absl::Status withConfiguration(const std::function<absl::Status(ActiveConfiguration&)>& use,
+                                   const std::vector<std::shared_ptr<Member>>& ready);
     std::vector<CanvasStatus> canvases() const { return configuration_.canvases(); }
     std::size_t renderersWanted() const { return configuration_.renderersWanted(); }
 
@@ -63,6 +66,7 @@ public:
     std::set<std::string> renderersUsed() const;
 
 private:
+    void meet(const std::vector<std::shared_ptr<Member>>& ready);
     const fabric::FrameData& frameDataFor(const FrameRequest& request,
                                           const std::optional<fabric::FrameBudget>& budget);
 

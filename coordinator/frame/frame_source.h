@@ -144,6 +144,8 @@ struct RendererStatus {
     RendererCondition condition = RendererCondition::Ready;
     std::string why = {};  ///< it is dead or refused, for a person to read
     std::chrono::system_clock::time_point since = {};  ///< it is dead or was refused a place
+    /// Of why it is refused: InvalidArgument, NotFound or DataLoss where the scene is wrong.
+    absl::StatusCode code = absl::StatusCode::kFailedPrecondition;
 
     bool isAlive() const {
         return condition != RendererCondition::Dead && condition != RendererCondition::Refused;

@@ -118,7 +118,9 @@ absl::StatusOr<fs::path> DataFolder::existing(std::string_view name) const {
 absl::StatusOr<fs::path> DataFolder::place(std::string_view name) const {
     RETURN_IF_ERROR(checkDataName(name));
     const fs::path path = path_ / fs::path(name);
-    ASSIGN_OR_RETURN(const fs::path folder, resolve(path.parent_path(), name));
+    // What is wrong is then wrong with the folder, not with what is to be put there.
+    const std::string_view folderName = name.substr(0, name.rfind('/'));
+    ASSIGN_OR_RETURN(const fs::path folder, resolve(path.parent_path(), folderName));
     fs::path file = folder / path.filename();
     std::error_code error;
     const fs::file_status now = fs::symlink_status(file, error);

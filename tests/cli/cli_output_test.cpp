@@ -3,14 +3,21 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <future>
 #include <iterator>
 #include <mutex>
+#include <stop_token>
+#include <thread>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "cli/image_files.h"
+#include "cli/output_reader.h"
 #include "cli/picture_bands.h"
 #include "cli/progress_bar.h"
 #include "fabric/frustum.h"
@@ -213,6 +220,33 @@ TEST(WriteFile, SaysThatTheFolderIsMissing) {
     const absl::Status status = writeText("x", "/nowhere/at/all/a.json");
     EXPECT_TRUE(absl::IsNotFound(status)) << status;
     EXPECT_THAT(std::string(status.message()), testing::HasSubstr("/nowhere/at/all/a.json"));
+}
+
+TEST(OutputReader, OfAPipeIsWaitedForUntilSomebodyReadsItOrStops) {
+    const test::TemporaryFolder folder;
+    const std::string pipe = folder.path("pipe");
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    std::stop_source stop;
+    std::promise<absl::Status> awaited;
+    std::jthread waiting(
+        [&] { awaited.set_value(OutputReader::await(pipe, stop.get_token()).status()); });
+    stop.request_stop();
+    EXPECT_TRUE(absl::IsCancelled(awaited.get_future().get()));
+    const int reading = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    ASSERT_GE(reading, 0);
+    {
+        const auto reader = OutputReader::await(pipe, stop.get_token());
+        ASSERT_TRUE(reader.ok()) << reader.status();
+        char byte = 0;
+        EXPECT_EQ(::read(reading, &byte, 1), -1) << "it has not ended, though nobody wrote";
+    }
+    ::close(reading);
+}
+
+TEST(OutputReader, OfAFileIsNotWaitedFor) {
+    const test::TemporaryFolder folder;
+    for (const std::string& path : {folder.path("new"), std::string("/dev/null"), std::string()})
+        EXPECT_TRUE(OutputReader::await(path, {}).ok()) << path;
 }
 
 TEST(ProgressLine, ShowsRateAndTimeLeft) {

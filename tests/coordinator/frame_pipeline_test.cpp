@@ -73,6 +73,28 @@ TEST_P(PictureCuts, OfHORIZONTALAreStripesOneAboveAnother) {
     EXPECT_EQ(bottoms.size(), 3U);
 }
 
+/// That of the renderers there are by then, and what was set is not lost with the first frame.
+TEST_P(FramePipelineTest, ThereIsAConfigurationBeforeTheFirstFrame) {
+    std::size_t nodes = 0;
+    const auto look = [&](ActiveConfiguration& active) {
+        nodes = active.written().nodes.size();
+        return absl::OkStatus();
+    };
+    EXPECT_TRUE(absl::IsFailedPrecondition(pipeline_.withConfiguration(look)));
+    pipeline_.setScene(sceneNamed("first"));
+    for (std::size_t i = 1; i <= 2; ++i) {
+        addRenderer();
+        EXPECT_TRUE(eventually([&] {
+            return pipeline_.withConfiguration(look).ok() && nodes == i;
+        })) << nodes
+            << " nodes of " << i << " renderers";
+    }
+    ASSERT_TRUE(pipeline_.configure({"0", "Simple"}).ok());
+    EXPECT_EQ(pipeline_.status().canvases.front().layout, "Simple");
+    ASSERT_TRUE(pipeline_.renderFrame(request()).ok());
+    EXPECT_EQ(pipeline_.status().canvases.front().layout, "Simple");
+}
+
 TEST_P(FramePipelineTest, PicturesGetSmallerWhereNoErrorKeepsTheirTime) {
     openWith(2);
     FrameRequest timed = request();

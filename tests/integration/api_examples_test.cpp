@@ -322,6 +322,27 @@ private:
     std::jthread answering_;
 };
 
+TEST(Examples, SayInALineThatTheServerDoesNotAnswer) {
+    const test::TemporaryFolder folder;
+    const std::string place = folder.path("out");
+    for (const std::vector<std::string>& example :
+         std::vector<std::vector<std::string>>{{"render_still.py", place},
+                                               {"turntable.py", place},
+                                               {"watch_statistics.py"},
+                                               {"sessions.py"},
+                                               {"import_data.py", "a.tif", "a.eyt"},
+                                               {"run_bench.py", "a.bench", place}}) {
+        std::vector<std::string> command{"/usr/bin/env", "python3",
+                                         EYRIE_SOURCE_DIR "/examples/" + example[0],
+                                         "http://127.0.0.1:1"};  // nobody listens on port 1
+        command.insert(command.end(), example.begin() + 1, example.end());
+        const test::Outcome outcome = test::run(command, seconds(60));
+        EXPECT_EQ(outcome.exit.status, 1) << example[0];
+        EXPECT_THAT(outcome.errors, testing::StartsWith("http://127.0.0.1:1 does not answer: "))
+            << example[0];
+    }
+}
+
 TEST(Examples, BringTheTokenOfTheirEnvironment) {
     const test::TemporaryFolder folder;
     const std::string place = folder.path("out");

@@ -212,11 +212,20 @@ TEST_F(BadInput, ScenesThatCannotBeAreRefusedByFileAndField) {
          fmt::format(R"({{"objects":[{{"mesh":"{}","transform":{{"translation":[1,2,"NaN"]}}}}]}})",
                      mesh),
          {"translation"}},
+        {"far.json",
+         fmt::format(
+             R"({{"objects":[{{"name":"star","mesh":"{}","transform":{{"scale":1e15}}}}]}})", mesh),
+         {"star", "metres", "transform"}},
+        {"endless.json",
+         fmt::format(
+             R"({{"objects":[{{"name":"all","mesh":"{}","transform":{{"scale":1e300}}}}]}})", mesh),
+         {"all", "metres"}},
     };
+    const std::set<std::string> opened = {"missing.json", "far.json", "endless.json"};
     for (const Case& one : cases) {
         folder_.write(one.name, one.content);
         Words named = one.named;
-        if (one.name != std::string("missing.json"))
+        if (!opened.contains(one.name))
             named.push_back(one.name);
         expectRefused({"render", bad(one.name), "--camera", good("camera.json"), "--size", "32x32",
                        "-o", bad("out.png")},
@@ -289,6 +298,8 @@ TEST_F(BadInput, ConfigurationsThatCannotBeAreRefusedByPlaceAndNotConverted) {
     expectRenderRefused({"--config", ring}, {"ring.eqc:3:1: error:", "--config"});
     expectRenderRefused({"--config", fine}, {"--config", "fine.eqc has no canvas"});
     expectRefused({"check", fine, "--convert", bad("out.txt")}, {"--convert", ".eqc or .json"});
+    expectRefused({"check", fine, "--convert", bad("fine.eqc")}, {"--convert", "the same file"});
+    EXPECT_EQ(*test::readFile(fine), "config { node { pipe {} } }");
     expectRefused({"check", fine, "--convert", bad("none/out.json")}, {"none/out.json"});
     ASSERT_EQ(mkfifo(bad("pipe").c_str(), 0600), 0);
     expectRefused({"check", bad("pipe")}, {"no regular file"});
@@ -314,6 +325,11 @@ TEST_F(BadInput, UnknownCommandsAndOptionsAreRefused) {
             {"synth", "mesh", "--size", "100", "--roughness", roughness, "-o", bad("out.ply")},
             {"--roughness"});
     expectRefused({"synth", "terrain", "--size", "0", "-o", bad("out.tif")}, {"--size"});
+    for (const char* seed : {"-1", "18446744073709551616", "1.5"})
+        expectRefused({"synth", "terrain", "--size", "9", "--seed", seed, "-o", bad("out.tif")},
+                      {"--seed", seed, "whole number"});
+    expectRefused({"serve", good("ball.eym"), "--max-scene-triangles", "-1"},
+                  {"--max-scene-triangles", "whole number"});
     for (const char* metres : {"nan", "inf", "-1"})
         expectRefused({"synth", "mesh", "--from", good_->path("ball.ply"), "--displace", metres,
                        "-o", bad("out.ply")},
@@ -418,7 +434,34 @@ TEST_F(BadInput, RenderersThatCannotOpenTheDataAreNotWaitedFor) {
     const std::string file = folder_.write("ball.eym", whole->substr(0, whole->size() / 2));
     expectRefused({"render", file, "--camera", good("camera.json"), "--size", "32x32",
                    "--renderers", "2", "-o", bad("out.png")},
-                  {"renderer can draw this", "ball.eym"}, kWorkFailed);
+                  {"renderer can draw this", "ball.eym"});
+    expectRefused({"bench", file, "--size", "32x32", "--frames", "2", "--renderers", "1", "-o",
+                   bad("report")},
+                  {"renderer can draw this", "ball.eym"});
+}
+
+TEST_F(BadInput, AnOutputThatNobodyReadsDoesNotKeepTheProgramFromEnding) {
+    ASSERT_EQ(mkfifo(bad("pipe").c_str(), 0600), 0);
+    const std::set<std::string> before = test::namesIn(folder_.path());
+    test::Process render(test::eyrieCommand({"render", good("ball.eym"), "--size", "32x32", "-o",
+                                             bad("out.png"), "--stats", bad("pipe")}));
+    EXPECT_TRUE(test::eventually(seconds(20), [&] {
+        return test::namesIn(folder_.path()).size() > before.size();
+    })) << render.errors();
+    EXPECT_FALSE(render.waitFor(std::chrono::milliseconds(500))) << "it has statistics to tell";
+    render.send(SIGTERM);
+    EXPECT_EQ(render.waitFor(seconds(10)), (test::Exit{kWorkFailed, 0})) << render.errors();
+    EXPECT_EQ(test::namesIn(folder_.path()), before) << "it left something behind";
+}
+
+TEST_F(BadInput, SynthWritesToAPipeAndSaysSo) {
+    const std::string pipe = bad("ball.ply");
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    test::Process reader({"/bin/cat", pipe});
+    const test::Outcome outcome = test::eyrie({"synth", "mesh", "--size", "100", "-o", pipe});
+    EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors;
+    EXPECT_EQ(reader.waitFor(seconds(10)), (test::Exit{0, 0}));
+    EXPECT_TRUE(reader.output().starts_with("ply\n")) << "and it is all there";
 }
 
 TEST_F(BadInput, WithoutEglRenderSaysWhatToInstall) {

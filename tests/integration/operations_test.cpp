@@ -140,6 +140,8 @@ TEST_F(Served, EndsInTimeAlthoughItsRenderersHang) {
     server_->send(SIGTERM);
     EXPECT_EQ(server_->waitFor(seconds(30)), (test::Exit{0, 0})) << server_->errors();
     for (const pid_t renderer : renderers) EXPECT_FALSE(test::isAlive(renderer));
+    EXPECT_NE(server_->errors().find("\"message\": \"drawing with "), std::string::npos)
+        << server_->errors();
     for (const std::string& line : linesOf(server_->errors()))
         EXPECT_TRUE(!line.starts_with("{") || test::parseJson(line).has_struct_value()) << line;
 }

@@ -330,6 +330,19 @@ TEST_F(Render, IsSilentOnStandardOutput) {
     EXPECT_EQ(outcome.errors, "");
 }
 
+TEST_F(Render, SaysThatACompoundIsOfSeveralRenderers) {
+    const auto errors = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"render", path("ball.eym"), "--camera", meshCamera(),
+                                         "--size", "64x64", "-o", path("compound.png")});
+        return eyrie(options).errors;
+    };
+    const std::string note = "--compound DB has no effect";
+    EXPECT_NE(errors({"--compound", "DB"}).find(note), std::string::npos);
+    EXPECT_EQ(errors({"--compound", "DB", "--quiet"}), "");
+    EXPECT_EQ(errors({"--compound", "DB", "--renderers", "2"}).find(note), std::string::npos);
+    EXPECT_EQ(errors({}).find("--compound"), std::string::npos);
+}
+
 /// Pictures count rows from the top, depth from the bottom.
 TEST_F(Render, WhatAPixelShowsIsWhereItsDepthSays) {
     const std::string camera = terrainCamera();

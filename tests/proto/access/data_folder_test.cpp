@@ -112,7 +112,9 @@ TEST_F(Traversal, FilesAreWrittenBelowTheFolderAndNeverThroughALink) {
     EXPECT_EQ(*folder_->place("new.eyt"), folder_->path() / "new.eyt");
     EXPECT_EQ(*folder_->place("folder/new.eyt"), folder_->path() / "survey/new.eyt");
     EXPECT_EQ(*folder_->place("dem.eyt"), folder_->path() / "dem.eyt");
-    EXPECT_TRUE(absl::IsNotFound(folder_->place("none/new.eyt").status()));
+    const absl::Status missing = folder_->place("none/new.eyt").status();
+    EXPECT_TRUE(absl::IsNotFound(missing));
+    EXPECT_EQ(missing.message(), "data 'none': No such file or directory");
     EXPECT_TRUE(absl::IsPermissionDenied(folder_->place("two/new.eyt").status()));
     for (const char* name : {"survey", "new.txt", "inside.eym", "dangling", "loop"})
         EXPECT_TRUE(absl::IsFailedPrecondition(folder_->place(name).status())) << name;
