@@ -16,6 +16,10 @@ export interface Output {
   stereo: Stereo;
 }
 
+/** Two eyes in one picture, which so has twice the width or the height of the view. */
+export const isPacked = ({ eye, stereo }: Output): boolean =>
+  eye === "" && (stereo === "side-by-side" || stereo === "top-bottom");
+
 export const usualOutput: Output = { canvas: "", segment: "", eye: "", stereo: "" };
 
 const eyes: readonly Eye[] = ["cyclop", "left", "right"];

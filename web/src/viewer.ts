@@ -16,7 +16,7 @@ import { ledViewOf } from "./protocol/led_view";
 import { boundsOf, cameraOf } from "./protocol/messages";
 import { Socket } from "./protocol/socket";
 import type { Output } from "./output";
-import { queryOf } from "./output";
+import { isPacked, queryOf } from "./output";
 import { groundOf } from "./profile";
 import { Questions } from "./questions";
 import { applySettings, areSame, settingsOf, watchSettings } from "./settings";
@@ -138,6 +138,7 @@ export class Viewer implements CameraHolder {
       },
     });
     state.walking.watch((isWalking) => this.walkingChanged(isWalking));
+    state.shown.watch((shown) => this.canvas.setFilled(shown?.isPacked === true));
     watchSettings(
       state,
       () => this.sender.request(performance.now()),
@@ -453,7 +454,8 @@ export class Viewer implements CameraHolder {
     } else this.follow({ camera: asked, look, ...rest });
     const { width, height } = frame;
     const { exaggeration, hidden } = look;
-    this.state.shown.set({ camera, width, height, exaggeration, hidden, seen: seenOf(frame) });
+    const shown = { camera, width, height, exaggeration, hidden };
+    this.state.shown.set({ ...shown, seen: seenOf(frame), isPacked: isPacked(this.output) });
   }
 
   // ---- Picks
