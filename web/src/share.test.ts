@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { create } from "@bufbuild/protobuf";
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
 import { addBookmark, readBookmarks, removeBookmark } from "./bookmarks";
 import type { Configured } from "./command";
 import { cameraJson, curlCommand, imageRequest, pythonScript, renderCommand } from "./command";
@@ -12,6 +12,7 @@ import { CanvasStateSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
 import { Shading } from "./protocol/messages";
 import type { SharedView } from "./share";
 import { decodeView, encodeView } from "./share";
+import { browserStorage } from "./storage";
 
 const plain: SharedView = {
   camera: { eye: [1.5, -2, 1e6 + 1 / 3], target: [0, 0, 0], up: [0, 0, 1], fovyDegrees: 45 },
@@ -127,6 +128,18 @@ describe("bookmarks", () => {
       expect(readBookmarks(storage)).toEqual([]);
     }
     expect(addBookmark(storage, "x".repeat(20_000), plain)).toBe(false);
+  });
+
+  it("are none, and say so, where the browser forbids to keep any", () => {
+    const forbidding = {
+      get localStorage(): Storage {
+        throw new DOMException("Access is denied", "SecurityError");
+      },
+    };
+    vi.stubGlobal("window", forbidding);
+    expect(readBookmarks(browserStorage())).toEqual([]);
+    expect(addBookmark(browserStorage(), "summit", plain)).toBe(false);
+    vi.unstubAllGlobals();
   });
 });
 
