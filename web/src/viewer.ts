@@ -23,6 +23,7 @@ import { applySettings, areSame, settingsOf, watchSettings } from "./settings";
 import type { SharedView } from "./share";
 import { ShownScene } from "./shown_scene";
 import type { State } from "./state";
+import { watchingText } from "./state";
 import { Arrivals } from "./view/arrivals";
 import { PictureCanvas } from "./view/canvas";
 import { Walker } from "./walker";
@@ -175,6 +176,7 @@ export class Viewer implements CameraHolder {
   }
 
   setWalking(isWalking: boolean): void {
+    if (isWalking && this.isWatching) return this.state.notice.set(watchingText);
     if (isWalking) this.state.flying.set(false);
     this.state.walking.set(isWalking);
   }
@@ -204,8 +206,7 @@ export class Viewer implements CameraHolder {
   private moveTo(camera: Camera, inputTime?: number): void {
     if (!isUsable(camera)) return;
     if (this.isWatching) {
-      const isInput = inputTime !== undefined;
-      if (isInput) this.state.notice.set("You watch this session: take the lead to move the view");
+      if (inputTime !== undefined) this.state.notice.set(watchingText);
       return;
     }
     this.camera = camera;

@@ -131,7 +131,9 @@ export function showViews(state: State, viewer: Viewer): void {
   const keys: Record<string, (time: number) => void> = { l: link, k: command, o: save };
   standardViews.forEach((view, i) => {
     const key = String(i + 1);
-    standard.append(button(view.name, `${view.name} (${key})`, () => viewer.goTo(i)));
+    standard.append(
+      button(view.name, `${view.name} (${key})`, () => viewer.goTo(i, performance.now())),
+    );
     keys[key] = (time) => viewer.goTo(i, time);
   });
   onKeys(keys);
