@@ -381,9 +381,17 @@ export class Viewer implements CameraHolder {
       this.limits = distanceLimits(Math.hypot(max.x - min.x, max.y - min.y, max.z - min.z));
     const { isElsewhere, hasOtherObjects } = this.scene.next(session);
     if (this.camera === null || isElsewhere) this.goHome();
-    if (hasOtherObjects && !this.isWatching)
-      this.state.look.set({ ...this.state.look.value, hidden: [], objects: [] });
+    if (hasOtherObjects) this.forgetScene();
     this.resize();
+  }
+
+  /** What was found in another scene, and said of its objects, and the cut that was held there. */
+  private forgetScene(): void {
+    this.state.pick.set(null);
+    this.state.measured.set([]);
+    this.state.profile.set(null);
+    if (this.isWatching) return;
+    this.state.look.set({ ...this.state.look.value, hidden: [], objects: [], frozen: null });
   }
 
   /** What was sent while another leads is not answered; who leads now has to say where to. */
