@@ -59,6 +59,19 @@ describe("a link", () => {
     expect(decodeView(new URL(url.href).hash)).toEqual(special);
   });
 
+  it("is read with its commas encoded, too", () => {
+    const passedOn = encodeView(special).replaceAll(",", "%2C");
+    expect(decodeView(passedOn)).toEqual(special);
+  });
+
+  it("asks for nothing that the server would refuse", () => {
+    const withContours = (metres: number) =>
+      decodeView(encodeView({ ...plain, look: { ...defaultLook, contourMetres: metres } }));
+    for (const metres of [0.001, 100_000])
+      expect(withContours(metres)?.look.contourMetres).toBe(metres);
+    for (const metres of [0.0009, 100_001, -1]) expect(withContours(metres)).toBeUndefined();
+  });
+
   it("that is not one whole is none", () => {
     const good = encodeView(plain);
     for (const bad of [

@@ -60,7 +60,8 @@ function numberOf(text: string | undefined, min: number, max: number): number | 
 }
 
 function vectorOf(text: string | undefined): Vec3 | undefined {
-  const [x, y, z, more] = (text ?? "").split(",").map((one) => numberOf(one, -1e12, 1e12));
+  // Some programs that pass links on encode their commas.
+  const [x, y, z, more] = (text ?? "").split(/,|%2c/i).map((one) => numberOf(one, -1e12, 1e12));
   if (x === undefined || y === undefined || z === undefined || more !== undefined) return undefined;
   return [x, y, z];
 }
@@ -123,7 +124,7 @@ const isPart: Record<keyof Look, (value: unknown) => boolean> = {
   primitives: (value) =>
     Array.isArray(value) && value.length <= maxPrimitives && value.every(isPrimitive),
   saturation: (value) => isNumber(value, 0, 2),
-  contourMetres: (value) => isNumber(value, 0, 1e6),
+  contourMetres: (value) => value === 0 || isNumber(value, 1e-3, 1e5),
   tileBounds: (value) => typeof value === "boolean",
   pageBounds: (value) => typeof value === "boolean",
   levelTint: (value) => typeof value === "boolean",
