@@ -218,6 +218,14 @@ await run("tools_test", async (browser, started) => {
     `and follows the keys that are tried (${after.join(", ")})`,
   );
   await page.keyboard.press("c");
+  await page.keyboard.down("c");
+  await page.keyboard.down("c"); // as a key that is held
+  await page.keyboard.up("c");
+  check(
+    (await states()).some((text) => text.startsWith("every ")),
+    "a key that is held switches once",
+  );
+  await page.keyboard.press("c");
   await page.keyboard.press("Escape");
   await page.locator("canvas#view").focus();
   await page.keyboard.press("m");

@@ -187,7 +187,7 @@ await run("wall", async (browser, started) => {
 
   const attic = await browser.openAnother(at(server.url, "role=watch&segment=attic"));
   await attic.waitForFunction(
-    () => document.body.innerText.includes('no segment is called "attic"; there are "left"'),
+    () => document.body.innerText.includes('No segment is called "attic"; there are "left"'),
     null,
     patience,
   );

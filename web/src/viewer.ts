@@ -133,9 +133,13 @@ export class Viewer implements CameraHolder {
         this.questions.askGround([...from, 0], [...to, 0], samples, (answer) =>
           answered(answer && groundOf(answer, from, to, state.look.value.exaggeration)),
         ),
-      failed: () => {
+      failed: (isAnswered) => {
         state.walking.set(false);
-        state.notice.set("There is no ground to stand on in the middle of the picture");
+        state.notice.set(
+          isAnswered
+            ? "There is no ground to stand on in the middle of the picture"
+            : "The ground cannot be asked for now: try again when pictures come",
+        );
       },
     });
     state.walking.watch((isWalking) => this.walkingChanged(isWalking));
