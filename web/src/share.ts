@@ -3,7 +3,7 @@
 import type { Camera, Vec3 } from "./camera/camera";
 import { isUsable } from "./camera/camera";
 import type { Look, ObjectLook, Primitive, Shape, Sun } from "./look";
-import { defaultLook, maxPrimitives } from "./look";
+import { defaultLook, maxObjects, maxPrimitives } from "./look";
 import { Shading } from "./protocol/messages";
 
 /** Everything that makes a picture of a scene what it is, but for its size. */
@@ -113,7 +113,7 @@ function isObjectLook(value: unknown): value is ObjectLook {
 /** Ascending, none twice. */
 const areObjectLooks = (value: unknown): boolean =>
   Array.isArray(value) &&
-  value.length <= 1000 &&
+  value.length <= maxObjects &&
   value.every(isObjectLook) &&
   value.every(({ object }, i) => i === 0 || (value[i - 1]?.object ?? object) < object);
 
@@ -132,7 +132,7 @@ const isPart: Record<keyof Look, (value: unknown) => boolean> = {
   frozen: (value) => value === null,
   underground: (value) => typeof value === "boolean",
   sun: (value) => value === null || isSun(value),
-  hidden: (value) => Array.isArray(value) && value.length <= 1000 && value.every(isPosition),
+  hidden: (value) => Array.isArray(value) && value.length <= maxObjects && value.every(isPosition),
   objects: areObjectLooks,
 };
 

@@ -34,10 +34,10 @@ export function lossText(connection: Connection, now: number): string {
   return `${Math.max(0, Math.floor((now - connection.since) / 1000))} s`;
 }
 
-/** "No." of the server's "no"; "" of nothing. */
+/** "No file." of the server's "no file"; "" of nothing. What begins with a name keeps that. */
 function sentence(text: string): string {
   const end = text === "" || /[.!?…]$/.test(text) ? "" : ".";
-  return `${text.charAt(0).toUpperCase()}${text.slice(1)}${end}`;
+  return `${text.replace(/^[a-z]+(?=[ ,]|$)/, (word) => word.charAt(0).toUpperCase() + word.slice(1))}${end}`;
 }
 
 /** What the scripts are built for, and workers that are modules; index.html says the same. */

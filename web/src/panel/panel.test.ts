@@ -120,6 +120,8 @@ describe("the message in place of a picture", () => {
     const none = session(0, 1, "no renderer is connected");
     expect(said(none, true)).toMatch(/last picture. No renderer is connected.$/);
     expect(said(none, false)).toBe("No renderer is connected.");
+    const named = session(1, 0, "look.saturation is 3; it must be from 0 to 2");
+    expect(said(named, false)).toBe("look.saturation is 3; it must be from 0 to 2.");
   });
 
   it("does not promise a picture where nobody leads", () => {
