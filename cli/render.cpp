@@ -115,19 +115,19 @@ struct Outputs {
 absl::StatusOr<Outputs> createOutputs(const Options& options,
                                       const coordinator::FrameRequest& request) {
     Outputs outputs;
-    ASSIGN_OR_RETURN(outputs.picture,
-                     PictureFile::create(options.out, request.width, request.height));
+    const auto [width, height] = wholeSize(request);
+    ASSIGN_OR_RETURN(outputs.picture, PictureFile::create(options.out, width, height));
     if (!options.depth.empty()) {
-        ASSIGN_OR_RETURN(outputs.depth,
-                         DepthFile::create(options.depth, request.width, request.height));
+        ASSIGN_OR_RETURN(outputs.depth, DepthFile::create(options.depth, width, height));
     }
     return outputs;
 }
 
 absl::Status finish(Outputs& outputs, const DrawnBands& drawn, const Options& options,
                     const coordinator::FrameRequest& request) {
+    const auto [width, height] = wholeSize(request);
     const std::string statistics =
-        wire::statisticsJson(drawn.statistics, request.width, request.height, drawn.device);
+        wire::statisticsJson(drawn.statistics, width, height, drawn.device);
     if (outputs.depth)
         RETURN_IF_ERROR(outputs.depth->commit());
     if (!options.stats.empty())
