@@ -71,6 +71,9 @@ export class Viewer implements CameraHolder {
   /** How often the camera was moved, by whomever. */
   movements = 0;
 
+  /** What the server notes next may be why what was asked of it came to nothing. */
+  private isAsking = false;
+
   /** H.264 can be decoded, and none has failed to be. */
   private showsVideo = false;
   private size: Size;
@@ -253,9 +256,15 @@ export class Viewer implements CameraHolder {
     this.clicked({ x: width / 2, y: height / 2 });
   }
 
-  /** For everybody; what comes of it is in the session's state. */
-  switchLayout(canvas: string, layout: string): void {
+  /** For everybody; what comes of it is in the session's state. False for who watches. */
+  switchLayout(canvas: string, layout: string): boolean {
+    if (this.isWatching) {
+      this.state.notice.set("You watch this session: take the lead to switch layouts");
+      return false;
+    }
+    this.isAsking = true;
     this.socket.switchLayout(canvas, layout);
+    return true;
   }
 
   /** Another moves the view, or nobody: this one only sees it. */
@@ -265,6 +274,7 @@ export class Viewer implements CameraHolder {
 
   /** Goes on from what is seen now. */
   takeLead(): void {
+    this.isAsking = true;
     this.state.output.set(this.output);
     this.socket.takeLead();
   }
@@ -378,6 +388,11 @@ export class Viewer implements CameraHolder {
   }
 
   private sessionChanged(session: SessionState): void {
+    const isTold = session.note !== "" && session.note !== this.state.session.value?.note;
+    if (this.isAsking && isTold) {
+      this.isAsking = false;
+      this.state.notice.set(session.note);
+    }
     this.state.session.set(session);
     this.placeChanged();
     const { min, max } = session.sceneBounds ?? {};
