@@ -13,6 +13,7 @@
 
 #include "cli/bench/flights.h"
 #include "cli/output_reader.h"
+#include "cli/picture_bands.h"
 #include "cli/progress_bar.h"
 #include "fabric/status.h"
 #include "renderer/mesh/output_file.h"
@@ -61,13 +62,13 @@ absl::Status writeFlightVideo(const FlightVideo& video, const std::string& scene
     ASSIGN_OR_RETURN(const video::Module* module, video::load());
     ASSIGN_OR_RETURN(const OutputReader reader, OutputReader::await(video.out, stop));
     ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(video.out));
+    const auto [width, height] = wholeSize(request);
     ASSIGN_OR_RETURN(
         const auto movie,
-        module->makeMovie(
-            {endingOf(video.out), request.width, request.height, video.framesPerSecond},
-            [&file](std::uint64_t offset, std::span<const std::byte> bytes) {
-                return file.writeAt(offset, bytes);
-            }));
+        module->makeMovie({endingOf(video.out), width, height, video.framesPerSecond},
+                          [&file](std::uint64_t offset, std::span<const std::byte> bytes) {
+                              return file.writeAt(offset, bytes);
+                          }));
     ASSIGN_OR_RETURN(const auto source, PictureSource::open(scene, pictures, stop));
     ASSIGN_OR_RETURN(const auto frames, framesFor(video, source->sceneInfo().bounds));
     ProgressBar bar(video.out, static_cast<double>(frames.size()), "pictures",

@@ -120,11 +120,10 @@ absl::StatusOr<Outputs> createOutputs(const Options& options,
     Outputs outputs;
     ASSIGN_OR_RETURN(const OutputReader ofPicture, OutputReader::await(options.out, stop));
     ASSIGN_OR_RETURN(const OutputReader ofDepth, OutputReader::await(options.depth, stop));
-    ASSIGN_OR_RETURN(outputs.picture,
-                     PictureFile::create(options.out, request.width, request.height));
+    const auto [width, height] = wholeSize(request);
+    ASSIGN_OR_RETURN(outputs.picture, PictureFile::create(options.out, width, height));
     if (!options.depth.empty()) {
-        ASSIGN_OR_RETURN(outputs.depth,
-                         DepthFile::create(options.depth, request.width, request.height));
+        ASSIGN_OR_RETURN(outputs.depth, DepthFile::create(options.depth, width, height));
     }
     return outputs;
 }
@@ -139,8 +138,9 @@ absl::Status writeStatistics(const std::string& statistics, const Options& optio
 
 absl::Status finish(Outputs& outputs, const DrawnBands& drawn, const Options& options,
                     const coordinator::FrameRequest& request, const std::stop_token& stop) {
+    const auto [width, height] = wholeSize(request);
     const std::string statistics =
-        wire::statisticsJson(drawn.statistics, request.width, request.height, drawn.device);
+        wire::statisticsJson(drawn.statistics, width, height, drawn.device);
     if (outputs.depth)
         RETURN_IF_ERROR(outputs.depth->commit());
     RETURN_IF_ERROR(writeStatistics(statistics, options, stop));

@@ -89,7 +89,8 @@ public:
     bool isServed = false;            ///< it is being made
     bool isAwaiting = false;          ///< the picture that is being drawn will go to it at once
     int timesPassedOver = 0;          ///< others came before it since it was served
-    std::string problem = {};         ///< what was wrong with its last request
+    std::string problem = {};         ///< why the view that it asked for last has no picture
+    std::string refusal = {};         ///< why else its last request came to nothing
     /// A screen of its own, which it shows whoever leads.
     struct Screen {
         coordinator::Shown shown;

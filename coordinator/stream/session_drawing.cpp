@@ -41,7 +41,7 @@ void Session::Impl::renderLoop() {
 }
 
 /// Waits for frames of others, so it is done here and not where messages arrive. The last that is
-/// asked for decides what is shown, and its problem is the one that is told.
+/// asked for decides what is shown, and why it failed is what is told.
 void Session::Impl::switchLayout(std::unique_lock<std::mutex>& lock) {
     const coordinator::SwitchLayout change = *std::exchange(switch_, std::nullopt);
     isAsking_ = true;
@@ -50,7 +50,7 @@ void Session::Impl::switchLayout(std::unique_lock<std::mutex>& lock) {
     lock.lock();
     isAsking_ = false;
     if (leader_ != nullptr)
-        setProblem(leader_->problem, status.ok() ? "" : problemOf(status));
+        setProblem(leader_->refusal, status.ok() ? "" : problemOf(status));
     changed_.notify_all();
 }
 

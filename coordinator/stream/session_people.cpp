@@ -77,6 +77,7 @@ void Session::Impl::want(Seat& seat, ViewRequest view) {
     if (leader_ != &seat || isDraining_)
         return;
     setProblem(seat.problem, "");
+    setProblem(seat.refusal, "");
     view.viewer = seat.id;
     wantNow(view);
 }
@@ -153,9 +154,10 @@ void Session::Impl::takeLead(Seat& seat) {
     if (seat.mayControl) {
         leader_ = &seat;
         seat.problem.clear();
+        seat.refusal.clear();
         isStateStale_ = true;
     } else {
-        setProblem(seat.problem, "This viewer may not take the lead.");
+        setProblem(seat.refusal, "This viewer may not take the lead.");
     }
     changed_.notify_all();
 }
@@ -197,9 +199,9 @@ void Session::Impl::switchLayout(Seat& seat, coordinator::SwitchLayout change) {
     if (leader_ == &seat && seat.mayControl)
         switch_ = std::move(change);
     else if (!seat.mayControl)
-        setProblem(seat.problem, "This viewer may not switch layouts.");
+        setProblem(seat.refusal, "This viewer may not switch layouts.");
     else
-        setProblem(seat.problem, "Only who leads the session may switch layouts.");
+        setProblem(seat.refusal, "Only who leads the session may switch layouts.");
     changed_.notify_all();
 }
 
@@ -341,7 +343,7 @@ void Session::Impl::putState(Seat& seat, const coordinator::Status& status) {
         place.together = group->size();
         place.behind = group->behind();
     }
-    std::string message = stateMessage(status, problem, renderNote_, place);
+    std::string message = stateMessage(status, problem, seat.refusal, renderNote_, place);
     if (message == seat.lastState)
         return;
     seat.lastState = message;

@@ -147,11 +147,13 @@ absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes) {
 }
 
 std::string stateMessage(const coordinator::Status& status, std::string_view problem,
-                         std::string_view note, const Place& place) {
+                         std::string_view refusal, std::string_view note, const Place& place) {
     v1::ViewerResponse response;
     v1::SessionState& state = *response.mutable_state();
     state = sessionState(status, problem);
-    if (state.note().empty())
+    if (!refusal.empty())
+        state.set_note(sanitised(refusal));
+    else if (state.note().empty())
         state.set_note(sanitised(note));
     state.mutable_place()->set_session(place.session);
     state.mutable_place()->set_viewers(place.viewers);

@@ -92,10 +92,10 @@ struct Place {
 
 v1::SessionState sessionState(const coordinator::Status& status, std::string_view problem);
 
-/// A ViewerResponse with that and `place`. `problem` goes before status.problem, `note` after
-/// status.note.
+/// A ViewerResponse with that and `place`. `problem` goes before status.problem, `refusal` before
+/// status.note, and `note` after that.
 std::string stateMessage(const coordinator::Status& status, std::string_view problem,
-                         std::string_view note, const Place& place);
+                         std::string_view refusal, std::string_view note, const Place& place);
 
 /// Where in which stream of H.264 a picture is.
 struct VideoPlace {

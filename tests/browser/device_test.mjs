@@ -56,4 +56,14 @@ await run("device_test", async (browser, started) => {
     (await point()) === tapped,
     `the one that was tapped (${tapped}), which is in the middle now`,
   );
+
+  await page.setViewportSize({ width: 320, height: 568 });
+  const isWithin = await page.evaluate(() =>
+    [...document.querySelectorAll(".tools button, #pick .value")].every((element) => {
+      const { left, right } = element.getBoundingClientRect();
+      const box = element.closest("#pick")?.getBoundingClientRect() ?? { left: 0, right: 320 };
+      return left >= box.left && right <= box.right;
+    }),
+  );
+  check(isWithin, "on the narrowest screens all buttons and values are within it");
 });

@@ -177,9 +177,22 @@ await run("page_test", async (browser, started) => {
   check(await page.locator("#help").isVisible(), "H opens the sheet of controls");
   await page.keyboard.press("Escape");
 
+  await page.mouse.click(480, 420);
+  await page.locator("#pick", { hasText: "hill" }).waitFor();
   server.say("no renderer");
   await page.locator("#banner", { hasText: "No renderer" }).waitFor();
   check(true, "a lost renderer is said so above the last picture");
+  const boxes = await page.evaluate(() =>
+    ["banner", "readout", "pick"].map((id) => {
+      const { top, bottom } = document.getElementById(id).getBoundingClientRect();
+      return { top, bottom };
+    }),
+  );
+  const [banner, readout, pick] = boxes;
+  check(
+    readout.bottom <= banner.top && banner.bottom <= pick.top,
+    "between the readout and what a click found, neither of which it hides",
+  );
   server.say("renderer");
   await page.locator("#banner").waitFor({ state: "hidden" });
   check(true, "and the page recovers when it is back");

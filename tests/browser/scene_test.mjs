@@ -202,6 +202,26 @@ await run("scene_test", async (browser, started) => {
   );
   check(true, "until it is left, refused");
 
+  await page.locator("canvas#view").focus();
+  await page.keyboard.press("x");
+  await page.keyboard.press("m");
+  await page.keyboard.press("Space");
+  await page.locator("#measure", { hasText: "One more point" }).waitFor();
+  const scene = await (await ask("scene")).json();
+  await ask("scene", {
+    method: "PUT",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify({ ...scene, objects: scene.objects.slice(0, 1) }),
+  });
+  await page.waitForFunction(() => document.querySelectorAll("#objects .object").length === 1);
+  await browser.settled();
+  check(
+    (await page.locator("#pick").isHidden()) &&
+      (await page.locator("#measure", { hasText: "Click two points" }).isVisible()) &&
+      (await page.locator("#frozen").getAttribute("aria-pressed")) === "false",
+    "another scene has none of the points and of the cut that were held in the one before",
+  );
+
   for (const colorScheme of ["dark", "light"]) {
     await page.emulateMedia({ colorScheme });
     const findings = await seriousFindings(page);

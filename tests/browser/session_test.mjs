@@ -46,6 +46,19 @@ await run("session_test", async (browser, started) => {
   const whole = Math.hypot(...before.target.map((metres, i) => metres - eye[i]));
   check(far > 0 && far < 0.5 * whole, "from there, and not from where it was");
 
+  const watcher = await browser.openAnother(`${server.url}?session=tour&role=watch`);
+  await watcher.waitForFunction(() => window.eyrie?.frameNumber > 0);
+  const layout = await watcher.locator("#layout").inputValue();
+  await watcher.locator("#layout").selectOption("Simple");
+  await watcher.locator("#notice", { hasText: "take the lead to switch layouts" }).waitFor();
+  check(
+    (await watcher.locator("#layout").inputValue()) === layout &&
+      (await watcher.locator("#banner").isHidden()),
+    "who watches cannot switch layouts, is told so, and goes on seeing pictures",
+  );
+  await watcher.close();
+  await page.bringToFront();
+
   await ask("DELETE");
   await browser.until(() => window.eyrie.connection === "closed", 30_000);
   await page.waitForTimeout(2000);

@@ -158,7 +158,7 @@ async function test(browser, started) {
   await page.keyboard.press("ArrowLeft");
   await page.click("#take-lead");
   await page.waitForFunction(
-    () => document.querySelector("#banner")?.textContent.includes("may not take the lead"),
+    () => document.querySelector("#notice")?.textContent.includes("may not take the lead"),
     undefined,
     patience,
   );

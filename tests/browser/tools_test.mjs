@@ -63,11 +63,36 @@ await run("tools_test", async (browser, started) => {
     !/tau=4|budget|wireframe/.test(page.url()),
     `and take back what it asked for (${new URL(page.url()).hash})`,
   );
+  await page.getByLabel("Name of the bookmark").press("Enter");
+  await page.locator("#notice", { hasText: "has a name" }).waitFor();
+  check((await page.locator(".bookmark").count()) === 1, "a bookmark without a name is none");
   await page.getByRole("button", { name: "Remove corner" }).click();
   check((await page.locator(".bookmark").count()) === 0, "and can be removed");
   await page.evaluate(() => (window.location.hash = "eye=1,2&at=3"));
   await page.locator("#notice", { hasText: "cannot be read" }).waitFor();
   check((await cameraNow()) === isometric, "a damaged link is said to be one and left out");
+
+  const forbidden = await browser.chromium.newPage();
+  forbidden.on("pageerror", (error) => browser.errors.push(String(error)));
+  await forbidden.addInitScript(() => {
+    const get = () => {
+      throw new DOMException("Access is denied for this document.", "SecurityError");
+    };
+    Object.defineProperty(window, "localStorage", { get });
+  });
+  await forbidden.goto(`${server.url}?session=two words`);
+  await forbidden.locator("#notice", { hasText: "names no session" }).waitFor();
+  check(true, "an address that names no session is said to");
+  await forbidden.waitForFunction(() => window.eyrie?.exact === true);
+  await forbidden.getByLabel("Name of the bookmark").fill("corner");
+  await forbidden.keyboard.press("Enter");
+  await forbidden.locator("#notice", { hasText: "forbids it" }).waitFor();
+  check(
+    (await forbidden.locator("#equalizers").innerText()) !== "",
+    "where the browser forbids to keep anything the page has all else",
+  );
+  await forbidden.close();
+  await page.bringToFront();
 
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
   await page.locator("canvas#view").focus();
@@ -191,6 +216,14 @@ await run("tools_test", async (browser, started) => {
   check(
     after.some((text) => text.startsWith("every ")),
     `and follows the keys that are tried (${after.join(", ")})`,
+  );
+  await page.keyboard.press("c");
+  await page.keyboard.down("c");
+  await page.keyboard.down("c"); // as a key that is held
+  await page.keyboard.up("c");
+  check(
+    (await states()).some((text) => text.startsWith("every ")),
+    "a key that is held switches once",
   );
   await page.keyboard.press("c");
   await page.keyboard.press("Escape");

@@ -86,15 +86,19 @@ function placesOn(camera, eyeX, wall) {
   return [places[0], places.at(-1)];
 }
 
-/** Clicks at a share of the picture, which covers the canvas, and compares the card with the judge. */
+/**
+ * Clicks at a share of the picture, which covers the canvas, and compares the card with the judge, and
+ * the mark with the click.
+ */
 async function pickAt(page, wall, eyeX, x, y) {
   const box = await page.locator("#view").boundingBox();
   const picture = await page.evaluate(() => ({ ...window.eyrie }));
   const scale = Math.max(box.width / picture.width, box.height / picture.height);
-  await page.mouse.click(
+  const [left, top] = [
     box.x + box.width / 2 + (x - 0.5) * scale * picture.width,
     box.y + box.height / 2 + (0.5 - y) * scale * picture.height,
-  );
+  ];
+  await page.mouse.click(left, top);
   await page.locator("#pick", { hasText: "1234.6 m" }).waitFor(patience);
   const card = await page.locator("#pick").innerText();
   const numbers = /x, y, z\s+(\S+), (\S+), (\S+)/.exec(card);
@@ -102,11 +106,16 @@ async function pickAt(page, wall, eyeX, x, y) {
   const camera = await page.evaluate(() => window.eyrie.camera);
   const judged = groundThrough(camera, eyeX, wall, x, y);
   const off = [1, 2, 3].map((i) => Math.abs(Number(numbers[i]) - judged[i - 1]));
+  const mark = await page.locator("#pick-mark").boundingBox();
+  const beside =
+    mark === null
+      ? Infinity
+      : Math.hypot(mark.x + mark.width / 2 - left, mark.y + mark.height / 2 - top);
   await page.keyboard.press("Escape");
   // A pixel of the canvas, and what the card rounds to.
   return {
-    isRight: Math.max(...off) < 0.5,
-    text: `${Math.max(...off).toFixed(3)} m beside the judge's`,
+    isRight: Math.max(...off) < 0.5 && beside < 2,
+    text: `${Math.max(...off).toFixed(3)} m beside the judge's, and marked ${beside.toFixed(2)} px beside`,
   };
 }
 
@@ -178,7 +187,7 @@ await run("wall", async (browser, started) => {
 
   const attic = await browser.openAnother(at(server.url, "role=watch&segment=attic"));
   await attic.waitForFunction(
-    () => document.body.innerText.includes('no segment is called "attic"; there are "left"'),
+    () => document.body.innerText.includes('No segment is called "attic"; there are "left"'),
     null,
     patience,
   );

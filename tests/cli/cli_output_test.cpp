@@ -143,6 +143,7 @@ public:
         {
             const std::lock_guard lock(mutex_);
             parts.push_back(request.part);
+            shown.push_back(request.shown.front());
         }
         coordinator::RenderedFrame frame;
         frame.image = rowsOf(sample(), request.part.y, request.part.y + request.part.height);
@@ -157,9 +158,10 @@ public:
 
     int atOnce = 1;
     std::vector<fabric::PixelViewport> parts;
+    std::vector<coordinator::Shown> shown;
 
 private:
-    std::mutex mutex_;  ///< guards parts while pictures are drawn
+    std::mutex mutex_;  ///< guards parts and shown while pictures are drawn
 };
 
 coordinator::FrameRequest sampleRequest() {
@@ -207,6 +209,40 @@ TEST(DrawInBands, DrawsAPictureThatFitsAtOnce) {
     const auto take = [](const fabric::Image&) { return absl::OkStatus(); };
     ASSERT_TRUE(drawInBands(pictures, sampleRequest(), 6, take).ok());
     EXPECT_THAT(pictures.parts, testing::ElementsAre(fabric::PixelViewport{0, 0, 3, 2}));
+}
+
+TEST(DrawInBands, DrawsTwoEyesOneAboveTheOtherFromTheTopDown) {
+    SamplePictures pictures;
+    coordinator::FrameRequest request = sampleRequest();
+    request.shown = {{"wall", "", {}, compound::Stereo::TopBottom}};
+    EXPECT_EQ(wholeSize(request), (PictureSize{3, 4}));
+    fabric::Image picture = fabric::makeImage({0, 0, 3, 4}, {}, true);
+    std::vector<int> bottoms;
+    const auto drawn = drawInBands(pictures, request, 3, [&](const fabric::Image& rows) {
+        bottoms.push_back(rows.area.y);
+        fabric::paste(rows, picture);
+        return absl::OkStatus();
+    });
+    ASSERT_TRUE(drawn.ok()) << drawn.status();
+    EXPECT_THAT(bottoms, testing::ElementsAre(3, 2, 1, 0));
+    EXPECT_EQ(rowsOf(picture, 0, 2), sample());
+    EXPECT_EQ(rowsOf(picture, 2, 4).colour, sample().colour);
+    const coordinator::Shown left{"wall", "", compound::Eye::Left, compound::Stereo::Configured};
+    const coordinator::Shown right{"wall", "", compound::Eye::Right, compound::Stereo::Configured};
+    EXPECT_THAT(pictures.shown, testing::ElementsAre(left, left, right, right));
+    EXPECT_EQ(drawn->statistics.triangles, 20U);
+}
+
+TEST(DrawInBands, LeavesTwoEyesSideBySideInOneRow) {
+    SamplePictures pictures;
+    coordinator::FrameRequest request = sampleRequest();
+    request.shown.front().stereo = compound::Stereo::SideBySide;
+    EXPECT_EQ(wholeSize(request), (PictureSize{6, 2}));
+    const auto take = [](const fabric::Image&) { return absl::OkStatus(); };
+    ASSERT_TRUE(drawInBands(pictures, request, 6, take).ok());
+    EXPECT_EQ(pictures.shown, request.shown);
+    request.shown.front().eye = compound::Eye::Left;
+    EXPECT_EQ(wholeSize(request), (PictureSize{3, 2})) << "of one eye";
 }
 
 TEST(DrawInBands, StopsWhereABandIsRefused) {

@@ -165,12 +165,13 @@ TEST(Session, LetsOnlyItsLeaderSwitchLayouts) {
     request.mutable_switch_layout()->set_layout("OFF");
     watcher.send(request);
     const auto refused =
-        watcher.stateWhere([](const v1::SessionState& state) { return !state.problem().empty(); });
+        watcher.stateWhere([](const v1::SessionState& state) { return !state.note().empty(); });
     ASSERT_TRUE(refused.has_value());
-    EXPECT_THAT(refused->problem(), HasSubstr("leads"));
+    EXPECT_THAT(refused->note(), HasSubstr("leads"));
+    EXPECT_EQ(refused->problem(), "") << "it goes on seeing pictures";
     watcher.send(leadMessage());
     EXPECT_TRUE(watcher.stateWhere([](const v1::SessionState& state) {
-        return state.problem().empty() && state.place().leads();
+        return state.note().empty() && state.place().leads();
     }));
 }
 
@@ -181,7 +182,7 @@ TEST(Session, IsOnlyWatchedByWhoMayNotControl) {
     ASSERT_TRUE(comesToBe(guest, 1, false, false));
     guest.send(leadMessage());
     const auto refused =
-        guest.stateWhere([](const v1::SessionState& state) { return !state.problem().empty(); });
+        guest.stateWhere([](const v1::SessionState& state) { return !state.note().empty(); });
     ASSERT_TRUE(refused.has_value());
     EXPECT_FALSE(refused->place().led());
     Browser alone(sessions, {"", Role::Lead, false});
@@ -191,7 +192,7 @@ TEST(Session, IsOnlyWatchedByWhoMayNotControl) {
     request.mutable_switch_layout()->set_layout("OFF");
     alone.send(request);
     EXPECT_TRUE(alone.stateWhere([](const v1::SessionState& state) {
-        return state.problem().find("may not switch") != std::string::npos;
+        return state.note().find("may not switch") != std::string::npos;
     }));
 }
 

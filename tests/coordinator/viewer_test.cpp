@@ -250,6 +250,35 @@ TEST(Viewer, DoesNothingWhileNothingChanges) {
     EXPECT_FALSE(browser.viewer().unacknowledgedFor().has_value());
 }
 
+TEST(Viewer, ComesToRestWithTwoEyesInOnePicture) {
+    FakeFrameSource frames;
+    frames.setDraw([](FrameRequest request) {
+        using compound::Stereo;
+        const Stereo stereo = request.shown.front().stereo;
+        request.width *= stereo == Stereo::SideBySide ? 2 : 1;
+        request.height *= stereo == Stereo::TopBottom ? 2 : 1;
+        return coordinator::plainFrame(request, {90, 120, 60, 255});
+    });
+    for (const v1::ShownStereo stereo :
+         {v1::SHOWN_STEREO_SIDE_BY_SIDE, v1::SHOWN_STEREO_TOP_BOTTOM}) {
+        Browser browser(frames, resting());
+        v1::ViewerRequest request = viewMessage(1, 1);
+        request.mutable_view()->mutable_shown()->set_stereo(stereo);
+        const std::size_t before = frames.requests().size();
+        browser.send(request);
+        bool isExact = false;
+        for (int i = 0; i < 5 && !isExact; ++i) {
+            const auto frame = browser.nextFrame();
+            ASSERT_TRUE(frame.has_value());
+            browser.acknowledge(frame->frame_number());
+            isExact = frame->has_png();
+        }
+        EXPECT_TRUE(isExact);
+        EXPECT_FALSE(browser.nextFrame(milliseconds(100)).has_value());
+        EXPECT_LE(frames.requests().size(), before + 1);
+    }
+}
+
 /// A source whose first `count` frames lack pages, of which `failed` cannot be read.
 void lackPages(FakeFrameSource& frames, std::size_t count, std::uint64_t failed) {
     frames.setDraw([&frames, count, failed](const FrameRequest& request) {

@@ -237,7 +237,7 @@ TEST(Viewer, SwitchesLayoutsAndDrawsWhatThenIsShown) {
         [](const v1::SessionState& state) { return state.canvases(0).layout() == "DB"; }));
     browser.send(switchTo("attic"));
     EXPECT_TRUE(browser.stateWhere([](const v1::SessionState& state) {
-        return state.problem() == "there is no layout attic";
+        return state.note() == "there is no layout attic" && state.problem().empty();
     }));
 }
 
@@ -253,11 +253,11 @@ TEST(Viewer, SwitchesOneLayoutAfterTheOther) {
     browser.send(switchTo("attic"));
     std::this_thread::sleep_for(milliseconds(30));
     frames.holdSwitches(false);
-    std::string problem;
+    std::string note;
     while (const auto response = browser.next(milliseconds(300)))
         if (response->has_state())
-            problem = response->state().problem();
-    EXPECT_EQ(problem, "there is no layout attic") << "the first did not end after the second";
+            note = response->state().note();
+    EXPECT_EQ(note, "there is no layout attic") << "the first did not end after the second";
 }
 
 }  // namespace

@@ -2,19 +2,17 @@
 // Views that a person has named, kept by the browser.
 import type { SharedView } from "./share";
 import { decodeView, encodeView } from "./share";
+import type { NamedStorage } from "./storage";
 
 export interface Bookmark {
   name: string;
   view: SharedView;
 }
 
-/** What of the browser's storage is needed. */
-export type BookmarkStorage = Pick<Storage, "getItem" | "setItem">;
-
 const key = "eyrie.bookmarks";
 
 /** In the order of their names; what cannot be read is left out. */
-export function readBookmarks(storage: BookmarkStorage): Bookmark[] {
+export function readBookmarks(storage: NamedStorage): Bookmark[] {
   try {
     const entries: unknown = JSON.parse(storage.getItem(key) ?? "[]");
     if (!Array.isArray(entries)) return [];
@@ -28,7 +26,7 @@ export function readBookmarks(storage: BookmarkStorage): Bookmark[] {
   }
 }
 
-function write(storage: BookmarkStorage, bookmarks: readonly Bookmark[]): boolean {
+function write(storage: NamedStorage, bookmarks: readonly Bookmark[]): boolean {
   const sorted = [...bookmarks].sort((a, b) => a.name.localeCompare(b.name));
   try {
     const entries = sorted.map(({ name, view }) => ({ name, view: encodeView(view) }));
@@ -39,14 +37,14 @@ function write(storage: BookmarkStorage, bookmarks: readonly Bookmark[]): boolea
   }
 }
 
-const others = (storage: BookmarkStorage, name: string): Bookmark[] =>
+const others = (storage: NamedStorage, name: string): Bookmark[] =>
   readBookmarks(storage).filter((one) => one.name !== name);
 
 /** Replaces one of the same name; false where the browser keeps no more. */
-export function addBookmark(storage: BookmarkStorage, name: string, view: SharedView): boolean {
+export function addBookmark(storage: NamedStorage, name: string, view: SharedView): boolean {
   return write(storage, [...others(storage, name), { name, view }]);
 }
 
-export function removeBookmark(storage: BookmarkStorage, name: string): void {
+export function removeBookmark(storage: NamedStorage, name: string): void {
   write(storage, others(storage, name));
 }

@@ -94,6 +94,9 @@ export const defaultLook: Look = {
   objects: [],
 };
 
+/** Objects that may be hidden, and that may have a look of their own, at a time. */
+export const maxObjects = 1000;
+
 /** Where the sun first stands: as maps are lit, from the north-west and half way up. */
 export const usualSun: Sun = { azimuth: 315, elevation: 45 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import "./style.css";
 import { exposeHooks } from "./hooks";
-import { outputOf } from "./output";
+import { misreadOutput, outputOf } from "./output";
 import { keepCover } from "./panel/cover";
 import { keepDescription } from "./panel/description";
 import { showDisplays } from "./panel/displays";
@@ -24,7 +24,7 @@ import { showStatus } from "./panel/status";
 import { showTerrain } from "./panel/terrain";
 import { setUpToolbar } from "./panel/toolbar";
 import { keepAddress, showViews } from "./panel/views";
-import { joiningOf, socketUrl } from "./place";
+import { joiningOf, misreadJoining, socketUrl } from "./place";
 import { State } from "./state";
 import { PictureCanvas } from "./view/canvas";
 import { Viewer } from "./viewer";
@@ -36,6 +36,7 @@ function start(): void {
     return;
   }
   const state = new State();
+  const misread = misreadOutput(window.location.search); // the address is put right below
   state.output.set(outputOf(window.location.search));
   const joining = joiningOf(window.location.search);
   // Who led before the connection was lost leads again, and nobody else.
@@ -62,6 +63,7 @@ function start(): void {
   showEqualizers(state);
   showPlots(state);
   showNotice(state);
+  state.notice.set(misreadJoining(window.location.search) || misread);
   keepAddress(state, viewer);
   setUpToolbar(state, viewer);
   keepCover(state, canvas);

@@ -139,6 +139,7 @@ describe("the card of measures", () => {
       exaggeration: 1,
       hidden: [],
       seen: null,
+      isPacked: false,
     };
     const runs = overlayRuns([point(0, 0, 0), point(0, -20, 0), point(1, 0, 0)], shown);
     expect(runs.length).toBe(2);

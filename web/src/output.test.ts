@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { outputOf, queryOf, usualOutput } from "./output";
+import { isPacked, misreadOutput, outputOf, queryOf, usualOutput } from "./output";
 
 describe("the picture that an address names", () => {
   it("is the first canvas where nothing is said", () => {
@@ -24,7 +24,19 @@ describe("the picture that an address names", () => {
     expect(queryOf({ ...usualOutput, eye: "right" }, before)).toBe("?session=review&eye=right");
   });
 
-  it("leaves out what it does not understand", () => {
+  it("leaves out what it does not understand, and says so", () => {
     expect(outputOf("?eye=third&stereo=quad&segment=a")).toEqual({ ...usualOutput, segment: "a" });
+    expect(misreadOutput("?eye=left&stereo=anaglyph&segment=a")).toBe("");
+    expect(misreadOutput("?eye=Left")).toBe(
+      "The address says eye=Left, which is none of cyclop, left, right",
+    );
+    expect(misreadOutput("?stereo=quad")).toContain("side-by-side");
+  });
+
+  it("is of two eyes where it shows both, one beside the other", () => {
+    expect(isPacked({ ...usualOutput, stereo: "side-by-side" })).toBe(true);
+    expect(isPacked({ ...usualOutput, stereo: "top-bottom" })).toBe(true);
+    expect(isPacked({ ...usualOutput, stereo: "side-by-side", eye: "left" })).toBe(false);
+    expect(isPacked({ ...usualOutput, stereo: "anaglyph" })).toBe(false);
   });
 });

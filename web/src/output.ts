@@ -16,12 +16,16 @@ export interface Output {
   stereo: Stereo;
 }
 
+/** Two eyes in one picture, which so has twice the width or the height of the view. */
+export const isPacked = ({ eye, stereo }: Output): boolean =>
+  eye === "" && (stereo === "side-by-side" || stereo === "top-bottom");
+
 export const usualOutput: Output = { canvas: "", segment: "", eye: "", stereo: "" };
 
 const eyes: readonly Eye[] = ["cyclop", "left", "right"];
 const stereos: readonly Stereo[] = ["anaglyph", "side-by-side", "top-bottom"];
 
-/** What is not understood is as usual. */
+/** What is not understood is as usual; misreadOutput says so. */
 export function outputOf(query: string): Output {
   const fields = new URLSearchParams(query);
   const one = <T extends string>(name: string, known: readonly T[]): T | "" =>
@@ -32,6 +36,18 @@ export function outputOf(query: string): Output {
     eye: one("eye", eyes),
     stereo: one("stereo", stereos),
   };
+}
+
+/** What of the query names no eye or stereo, for the user to read; "" where all is understood. */
+export function misreadOutput(query: string): string {
+  const fields = new URLSearchParams(query);
+  const other = (name: string, known: readonly string[]): string => {
+    const value = fields.get(name) ?? "";
+    return value === "" || known.includes(value)
+      ? ""
+      : `The address says ${name}=${value}, which is none of ${known.join(", ")}`;
+  };
+  return other("eye", eyes) || other("stereo", stereos);
 }
 
 /** With its "?", and with what else `before` says; "" where all is as usual. */

@@ -7,7 +7,7 @@ import { clickAfter } from "./camera/controls";
 import { lookAt } from "./camera/orbit";
 import { coordinate, lengthText } from "./panel/format";
 import { markOf, textOf } from "./panel/pick";
-import { coverOf, pickOf, placeOf, seenPlace } from "./pick";
+import { appearance, coverOf, pickOf, placeOf, seenPlace } from "./pick";
 import { SightSchema } from "./protocol/gen/eyrie/v1/frame_pb";
 import {
   SeenAreaSchema,
@@ -17,7 +17,15 @@ import {
 import { encodePick } from "./protocol/messages";
 
 const camera: Camera = { eye: [0, -10, 5], target: [0, 0, 0], up: [0, 0, 1], fovyDegrees: 45 };
-const shown = { camera, width: 640, height: 480, exaggeration: 1, hidden: [2], seen: null };
+const shown = {
+  camera,
+  width: 640,
+  height: 480,
+  exaggeration: 1,
+  hidden: [2],
+  seen: null,
+  isPacked: false,
+};
 
 const answer = create(ViewerPickedSchema, {
   sequence: 3n,
@@ -55,6 +63,13 @@ describe("a click", () => {
     const flat = { width: 1280, height: 240 };
     expect(coverOf(flat, shown)).toEqual({ x: 0, y: -360, width: 1280, height: 960 });
     expect(placeOf({ x: 1280, y: 0 }, flat, shown)).toEqual({ x: 640, y: 300 });
+  });
+
+  it("in a picture of two eyes is at the same share of it, which is all there", () => {
+    const canvas = { width: 320, height: 240 };
+    const packed = { ...shown, width: 1280, isPacked: true };
+    expect(coverOf(canvas, packed)).toEqual({ x: 0, y: 0, ...canvas });
+    expect(placeOf({ x: 80, y: 60 }, canvas, packed)).toEqual({ x: 320, y: 360 });
   });
 
   it("is asked with what the picture shows", () => {
@@ -96,6 +111,36 @@ describe("a click", () => {
     if (request.case !== "pick") throw new Error("no pick");
     expect(request.value.request).toMatchObject({ viewWidth: 320, viewHeight: 240, x: 80, y: 120 });
     expect(request.value.request?.sight?.eye).toEqual([-1, 0, 0]);
+  });
+});
+
+describe("a point", () => {
+  const point = [1, 2, 3] as const;
+  const half = Math.tan((camera.fovyDegrees * Math.PI) / 360);
+  const frustum = { left: -half, right: half, bottom: -half, top: half };
+  const area = (x: number, width: number, sight: object) =>
+    create(SeenAreaSchema, { x, y: 0, width, height: 1, sight: create(SightSchema, sight) });
+  const through = (...seen: ReturnType<typeof area>[]) => ({ ...shown, seen });
+
+  it("appears through a wall where the wall's sight shows it", () => {
+    const [x = 0, y = 0] = project(camera, point, 1) ?? [];
+    expect(appearance(shown, point)).toEqual(project(camera, point, 640 / 480));
+    const [left = 0, top = 0] = appearance(through(area(0.5, 0.5, { frustum })), point) ?? [];
+    expect(left).toBeCloseTo(0.5 + x / 2, 12);
+    expect(top).toBeCloseTo(y, 12);
+    // From an eye to the right it is to the left; a wall that is turned away does not show it.
+    const [moved = 1] = appearance(through(area(0, 1, { frustum, eye: [1, 0, 0] })), point) ?? [];
+    expect(moved).toBeLessThan(x);
+    const back = { frustum, viewFromCamera: [-1, 0, 0, 0, 1, 0, 0, 0, -1] };
+    expect(appearance(through(area(0, 1, back)), point)).toBeUndefined();
+  });
+
+  it("appears where the topmost of the sights that show it does", () => {
+    const [under, over] = [area(0, 1, { frustum }), area(0, 0.5, { frustum })];
+    const [x = 0] = appearance(through(under, over), point) ?? [];
+    expect(x).toBeCloseTo((project(camera, point, 1)?.[0] ?? 0) / 2, 12);
+    const beside = { frustum: { ...frustum, left: -0.01, right: -0.005 } };
+    expect(appearance(through(area(0, 1, beside)), point)).toBeUndefined();
   });
 });
 

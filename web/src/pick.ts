@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a click to a place of the picture, and from the answer to what the page says of it.
 import type { Point } from "./camera/touch";
-import type { Vec3 } from "./camera/camera";
-import type { Place, Shown, ViewerPicked, ViewerProfiled } from "./protocol/messages";
-import type { Pick, ProfileState } from "./state";
+import type { Camera, Vec3 } from "./camera/camera";
+import { againstAxes, project } from "./camera/camera";
+import type { Place, Shown, Sight, ViewerPicked, ViewerProfiled } from "./protocol/messages";
+import type { Pick as Picked, ProfileState } from "./state";
 import type { Size } from "./view/size";
+
+/** A picture's size, and whether it is of two eyes. */
+type Covering = Size & Partial<Pick<Shown, "isPacked">>;
 
 /**
  * Where a picture lies that covers a canvas, in the canvas's pixels and from its upper left corner:
  * as large as fills it, in the middle. Of one of another shape, as of who leads from another window,
- * two sides are beyond the canvas.
+ * two sides are beyond the canvas. One of two eyes is all there, as screens that part it want it.
  */
-export function coverOf(canvas: Size, picture: Size): Point & Size {
+export function coverOf(canvas: Size, picture: Covering): Point & Size {
+  if (picture.isPacked === true) return { x: 0, y: 0, ...canvas };
   const [width, height] = [Math.max(1, picture.width), Math.max(1, picture.height)];
   const scale = Math.max(canvas.width / width, canvas.height / height);
   return {
@@ -26,7 +31,7 @@ export function coverOf(canvas: Size, picture: Size): Point & Size {
  * Pixels of a picture, from its lower left corner, y upwards, of a point `at` from the upper left
  * corner of the canvas that it covers; what lies beside it counts to its edge.
  */
-export function placeOf(at: Point, canvas: Size, picture: Size): Point {
+export function placeOf(at: Point, canvas: Size, picture: Covering): Point {
   const cover = coverOf(canvas, picture);
   const share = (value: number, whole: number): number =>
     Math.min(1, Math.max(0, value / Math.max(1, whole)));
@@ -65,11 +70,45 @@ export function seenPlace(shown: Shown, place: Point): Place | undefined {
   };
 }
 
+/** Where a sight shows a point, as shares from its lower left corner; undefined behind its eye. */
+function throughSight(
+  { eye, viewFromCamera, frustum }: Sight,
+  camera: Camera,
+  point: Vec3,
+): [number, number] | undefined {
+  const fromEye = againstAxes(camera, point).map((value, i) => value - (eye[i] ?? 0));
+  const row = (i: number): number =>
+    viewFromCamera.length === 0
+      ? (fromEye[i] ?? 0)
+      : fromEye.reduce((sum, value, k) => sum + (viewFromCamera[3 * i + k] ?? 0) * value, 0);
+  const [x, y, depth] = [row(0), row(1), -row(2)];
+  if (!(depth > 0) || frustum === undefined) return undefined;
+  const { left, right, bottom, top } = frustum;
+  return [(x / depth - left) / (right - left), (y / depth - bottom) / (top - bottom)];
+}
+
+const isShare = (value: number): boolean => value >= 0 && value <= 1;
+
+/**
+ * Where a world point appears in a picture, as shares of it from its upper left corner; undefined
+ * behind the eye, and where none of the picture's sights shows it.
+ */
+export function appearance(shown: Shown, point: Vec3): [number, number] | undefined {
+  const { camera, width, height, seen } = shown;
+  if (seen === null) return project(camera, point, width / height);
+  for (const area of [...seen].reverse()) {
+    const at = area.sight && throughSight(area.sight, camera, point);
+    if (at?.every(isShare))
+      return [area.x + at[0] * area.width, 1 - (area.y + at[1] * area.height)];
+  }
+  return undefined;
+}
+
 export function pickOf(
   answer: ViewerPicked,
   objectNames: readonly string[],
   exaggeration: number,
-): Pick {
+): Picked {
   if (answer.problem !== "") return { kind: "problem", text: answer.problem };
   const { point } = answer;
   if (point?.position === undefined) return { kind: "nothing" };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { joiningOf, newSessionName, pageIn, socketUrl } from "./place";
+import { joiningOf, misreadJoining, newSessionName, pageIn, socketUrl } from "./place";
 
 describe("the session that an address names", () => {
   it("is one of its own where nothing is said, or what the server would refuse", () => {
@@ -9,6 +9,14 @@ describe("the session that an address names", () => {
     expect(joiningOf("?session=a%20b")).toEqual(own);
     expect(joiningOf(`?session=${"a".repeat(65)}`)).toEqual(own);
     expect(socketUrl("http://host:8080/#eye=1,2,3", joiningOf(""))).toBe("ws://host:8080/ws");
+  });
+
+  it("is told to be none where the address says something else", () => {
+    for (const fine of ["", "?session=a-1_b.c", "?session=a&role=watch", "?session=a&role=lead"])
+      expect(misreadJoining(fine)).toBe("");
+    expect(misreadJoining("?session=my%20view")).toContain("names no session");
+    expect(misreadJoining("?session=a&role=wacth")).toContain("role=wacth");
+    expect(misreadJoining("?role=watch")).toContain("no session");
   });
 
   it("is joined under its name, to lead or to watch", () => {

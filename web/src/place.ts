@@ -9,7 +9,7 @@ export interface Joining {
   role: "lead" | "watch";
 }
 
-/** A name that the server would refuse is none. */
+/** A name that the server would refuse is none; misreadJoining says so. */
 export function joiningOf(query: string): Joining {
   const fields = new URLSearchParams(query);
   const name = fields.get("session") ?? "";
@@ -17,6 +17,17 @@ export function joiningOf(query: string): Joining {
     session: /^[A-Za-z0-9._-]{1,64}$/.test(name) ? name : "",
     role: fields.get("role") === "watch" ? "watch" : "lead",
   };
+}
+
+/** What of the query names no session or role, for the user to read; "" where all is understood. */
+export function misreadJoining(query: string): string {
+  const fields = new URLSearchParams(query);
+  const [name, role] = [fields.get("session") ?? "", fields.get("role") ?? ""];
+  if (name !== "" && joiningOf(query).session === "")
+    return "The address names no session: its name may have 64 letters, digits, dots, _ and -. This view is yours alone";
+  if (role !== "" && role !== "lead" && role !== "watch")
+    return `The address says role=${role}, which is neither lead nor watch`;
+  return role === "watch" && name === "" ? "The address says role=watch, but no session" : "";
 }
 
 /** /ws beside the page at `page`. */

@@ -43,7 +43,10 @@ export class Questions {
       return false;
     }
     const sequence = this.pickSequence + 1;
-    if (!this.socket.pick(sequence, shown, place)) return false;
+    if (!this.socket.pick(sequence, shown, place)) {
+      this.state.pick.set({ kind: "problem", text: "The server cannot be asked now" });
+      return false;
+    }
     this.pickSequence = sequence;
     if (turns) this.turnTo = sequence;
     this.state.pick.set({ kind: "asking" });

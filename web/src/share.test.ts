@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { create } from "@bufbuild/protobuf";
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
 import { addBookmark, readBookmarks, removeBookmark } from "./bookmarks";
 import type { Configured } from "./command";
 import { cameraJson, curlCommand, imageRequest, pythonScript, renderCommand } from "./command";
@@ -12,6 +12,7 @@ import { CanvasStateSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
 import { Shading } from "./protocol/messages";
 import type { SharedView } from "./share";
 import { decodeView, encodeView } from "./share";
+import { browserStorage } from "./storage";
 
 const plain: SharedView = {
   camera: { eye: [1.5, -2, 1e6 + 1 / 3], target: [0, 0, 0], up: [0, 0, 1], fovyDegrees: 45 },
@@ -56,6 +57,19 @@ describe("a link", () => {
     const url = new URL("http://127.0.0.1/");
     url.hash = encodeView(special);
     expect(decodeView(new URL(url.href).hash)).toEqual(special);
+  });
+
+  it("is read with its commas encoded, too", () => {
+    const passedOn = encodeView(special).replaceAll(",", "%2C");
+    expect(decodeView(passedOn)).toEqual(special);
+  });
+
+  it("asks for nothing that the server would refuse", () => {
+    const withContours = (metres: number) =>
+      decodeView(encodeView({ ...plain, look: { ...defaultLook, contourMetres: metres } }));
+    for (const metres of [0.001, 100_000])
+      expect(withContours(metres)?.look.contourMetres).toBe(metres);
+    for (const metres of [0.0009, 100_001, -1]) expect(withContours(metres)).toBeUndefined();
   });
 
   it("that is not one whole is none", () => {
@@ -127,6 +141,18 @@ describe("bookmarks", () => {
       expect(readBookmarks(storage)).toEqual([]);
     }
     expect(addBookmark(storage, "x".repeat(20_000), plain)).toBe(false);
+  });
+
+  it("are none, and say so, where the browser forbids to keep any", () => {
+    const forbidding = {
+      get localStorage(): Storage {
+        throw new DOMException("Access is denied", "SecurityError");
+      },
+    };
+    vi.stubGlobal("window", forbidding);
+    expect(readBookmarks(browserStorage())).toEqual([]);
+    expect(addBookmark(browserStorage(), "summit", plain)).toBe(false);
+    vi.unstubAllGlobals();
   });
 });
 

@@ -3,7 +3,7 @@
 import type { Camera, Vec3 } from "./camera/camera";
 import { isUsable } from "./camera/camera";
 import type { Look, ObjectLook, Primitive, Shape, Sun } from "./look";
-import { defaultLook, maxPrimitives } from "./look";
+import { defaultLook, maxObjects, maxPrimitives } from "./look";
 import { Shading } from "./protocol/messages";
 
 /** Everything that makes a picture of a scene what it is, but for its size. */
@@ -60,7 +60,8 @@ function numberOf(text: string | undefined, min: number, max: number): number | 
 }
 
 function vectorOf(text: string | undefined): Vec3 | undefined {
-  const [x, y, z, more] = (text ?? "").split(",").map((one) => numberOf(one, -1e12, 1e12));
+  // Some programs that pass links on encode their commas.
+  const [x, y, z, more] = (text ?? "").split(/,|%2c/i).map((one) => numberOf(one, -1e12, 1e12));
   if (x === undefined || y === undefined || z === undefined || more !== undefined) return undefined;
   return [x, y, z];
 }
@@ -112,7 +113,7 @@ function isObjectLook(value: unknown): value is ObjectLook {
 /** Ascending, none twice. */
 const areObjectLooks = (value: unknown): boolean =>
   Array.isArray(value) &&
-  value.length <= 1000 &&
+  value.length <= maxObjects &&
   value.every(isObjectLook) &&
   value.every(({ object }, i) => i === 0 || (value[i - 1]?.object ?? object) < object);
 
@@ -123,7 +124,7 @@ const isPart: Record<keyof Look, (value: unknown) => boolean> = {
   primitives: (value) =>
     Array.isArray(value) && value.length <= maxPrimitives && value.every(isPrimitive),
   saturation: (value) => isNumber(value, 0, 2),
-  contourMetres: (value) => isNumber(value, 0, 1e6),
+  contourMetres: (value) => value === 0 || isNumber(value, 1e-3, 1e5),
   tileBounds: (value) => typeof value === "boolean",
   pageBounds: (value) => typeof value === "boolean",
   levelTint: (value) => typeof value === "boolean",
@@ -131,7 +132,7 @@ const isPart: Record<keyof Look, (value: unknown) => boolean> = {
   frozen: (value) => value === null,
   underground: (value) => typeof value === "boolean",
   sun: (value) => value === null || isSun(value),
-  hidden: (value) => Array.isArray(value) && value.length <= 1000 && value.every(isPosition),
+  hidden: (value) => Array.isArray(value) && value.length <= maxObjects && value.every(isPosition),
   objects: areObjectLooks,
 };
 

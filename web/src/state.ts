@@ -127,6 +127,9 @@ export type ProfileState =
   | { kind: "asking"; from: Vec3; to: Vec3 }
   | { kind: "problem"; text: string };
 
+/** For who moves the view of a session that another leads. */
+export const watchingText = "You watch this session: take the lead to move the view";
+
 /** Everything the page shows. The viewer writes it; panels read it. */
 export class State {
   readonly connection = new Value<Connection>({ kind: "connecting" });

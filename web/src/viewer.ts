@@ -16,13 +16,14 @@ import { ledViewOf } from "./protocol/led_view";
 import { boundsOf, cameraOf } from "./protocol/messages";
 import { Socket } from "./protocol/socket";
 import type { Output } from "./output";
-import { queryOf } from "./output";
+import { isPacked, queryOf } from "./output";
 import { groundOf } from "./profile";
 import { Questions } from "./questions";
 import { applySettings, areSame, settingsOf, watchSettings } from "./settings";
 import type { SharedView } from "./share";
 import { ShownScene } from "./shown_scene";
 import type { State } from "./state";
+import { watchingText } from "./state";
 import { Arrivals } from "./view/arrivals";
 import { PictureCanvas } from "./view/canvas";
 import { Walker } from "./walker";
@@ -69,6 +70,9 @@ export class Viewer implements CameraHolder {
 
   /** How often the camera was moved, by whomever. */
   movements = 0;
+
+  /** What the server notes next may be why what was asked of it came to nothing. */
+  private isAsking = false;
 
   /** H.264 can be decoded, and none has failed to be. */
   private showsVideo = false;
@@ -132,12 +136,17 @@ export class Viewer implements CameraHolder {
         this.questions.askGround([...from, 0], [...to, 0], samples, (answer) =>
           answered(answer && groundOf(answer, from, to, state.look.value.exaggeration)),
         ),
-      failed: () => {
+      failed: (isAnswered) => {
         state.walking.set(false);
-        state.notice.set("There is no ground to stand on in the middle of the picture");
+        state.notice.set(
+          isAnswered
+            ? "There is no ground to stand on in the middle of the picture"
+            : "The ground cannot be asked for now: try again when pictures come",
+        );
       },
     });
     state.walking.watch((isWalking) => this.walkingChanged(isWalking));
+    state.shown.watch((shown) => this.canvas.setFilled(shown?.isPacked === true));
     watchSettings(
       state,
       () => this.sender.request(performance.now()),
@@ -174,6 +183,7 @@ export class Viewer implements CameraHolder {
   }
 
   setWalking(isWalking: boolean): void {
+    if (isWalking && this.isWatching) return this.state.notice.set(watchingText);
     if (isWalking) this.state.flying.set(false);
     this.state.walking.set(isWalking);
   }
@@ -203,8 +213,7 @@ export class Viewer implements CameraHolder {
   private moveTo(camera: Camera, inputTime?: number): void {
     if (!isUsable(camera)) return;
     if (this.isWatching) {
-      const isInput = inputTime !== undefined;
-      if (isInput) this.state.notice.set("You watch this session: take the lead to move the view");
+      if (inputTime !== undefined) this.state.notice.set(watchingText);
       return;
     }
     this.camera = camera;
@@ -247,9 +256,15 @@ export class Viewer implements CameraHolder {
     this.clicked({ x: width / 2, y: height / 2 });
   }
 
-  /** For everybody; what comes of it is in the session's state. */
-  switchLayout(canvas: string, layout: string): void {
+  /** For everybody; what comes of it is in the session's state. False for who watches. */
+  switchLayout(canvas: string, layout: string): boolean {
+    if (this.isWatching) {
+      this.state.notice.set("You watch this session: take the lead to switch layouts");
+      return false;
+    }
+    this.isAsking = true;
     this.socket.switchLayout(canvas, layout);
+    return true;
   }
 
   /** Another moves the view, or nobody: this one only sees it. */
@@ -259,6 +274,7 @@ export class Viewer implements CameraHolder {
 
   /** Goes on from what is seen now. */
   takeLead(): void {
+    this.isAsking = true;
     this.state.output.set(this.output);
     this.socket.takeLead();
   }
@@ -372,6 +388,11 @@ export class Viewer implements CameraHolder {
   }
 
   private sessionChanged(session: SessionState): void {
+    const isTold = session.note !== "" && session.note !== this.state.session.value?.note;
+    if (this.isAsking && isTold) {
+      this.isAsking = false;
+      this.state.notice.set(session.note);
+    }
     this.state.session.set(session);
     this.placeChanged();
     const { min, max } = session.sceneBounds ?? {};
@@ -379,9 +400,17 @@ export class Viewer implements CameraHolder {
       this.limits = distanceLimits(Math.hypot(max.x - min.x, max.y - min.y, max.z - min.z));
     const { isElsewhere, hasOtherObjects } = this.scene.next(session);
     if (this.camera === null || isElsewhere) this.goHome();
-    if (hasOtherObjects && !this.isWatching)
-      this.state.look.set({ ...this.state.look.value, hidden: [], objects: [] });
+    if (hasOtherObjects) this.forgetScene();
     this.resize();
+  }
+
+  /** What was found in another scene, and said of its objects, and the cut that was held there. */
+  private forgetScene(): void {
+    this.state.pick.set(null);
+    this.state.measured.set([]);
+    this.state.profile.set(null);
+    if (this.isWatching) return;
+    this.state.look.set({ ...this.state.look.value, hidden: [], objects: [], frozen: null });
   }
 
   /** What was sent while another leads is not answered; who leads now has to say where to. */
@@ -453,7 +482,8 @@ export class Viewer implements CameraHolder {
     } else this.follow({ camera: asked, look, ...rest });
     const { width, height } = frame;
     const { exaggeration, hidden } = look;
-    this.state.shown.set({ camera, width, height, exaggeration, hidden, seen: seenOf(frame) });
+    const shown = { camera, width, height, exaggeration, hidden };
+    this.state.shown.set({ ...shown, seen: seenOf(frame), isPacked: isPacked(this.output) });
   }
 
   // ---- Picks

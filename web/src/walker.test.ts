@@ -14,10 +14,10 @@ const isLand = (x: number): boolean => Math.abs(x) < 60;
 function walking(delay = 0) {
   const cameras: Camera[] = [];
   const waiting: { steps: number; answer: () => void }[] = [];
-  let failures = 0;
+  const failures: boolean[] = [];
   const walker = new Walker({
     moved: (camera) => cameras.push(camera),
-    failed: () => (failures += 1),
+    failed: (isAnswered) => failures.push(isAnswered),
     ask: (from, to, samples, answered) => {
       const heights = Array.from({ length: samples }, (_, i) => {
         const share = i / (samples - 1);
@@ -37,7 +37,7 @@ function walking(delay = 0) {
     await Promise.resolve();
   };
   const last = (): Camera => cameras[cameras.length - 1] ?? above;
-  return { walker, cameras, step, last, failures: () => failures };
+  return { walker, cameras, step, last, failures };
 }
 
 describe("A walk", () => {
@@ -86,8 +86,19 @@ describe("A walk", () => {
     const { walker, cameras, failures } = walking();
     walker.begin({ ...above, target: [99, 0, 90] });
     await Promise.resolve();
-    expect(failures()).toBe(1);
+    expect(failures).toEqual([true]);
     expect(cameras).toEqual([]);
+  });
+
+  it("does not take it that there is none where nobody answers", () => {
+    const failures: boolean[] = [];
+    const walker = new Walker({
+      moved: () => {},
+      failed: (isAnswered) => failures.push(isAnswered),
+      ask: () => false,
+    });
+    walker.begin(above);
+    expect(failures).toEqual([false]);
   });
 
   it("is faster and higher for larger walkers", async () => {

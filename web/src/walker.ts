@@ -10,8 +10,8 @@ export interface WalkerEvents {
   moved(camera: Camera, time: number | undefined): void;
   /** Asks for the ground between two places; false where it cannot be asked now. */
   ask(from: Ground["from"], to: Ground["to"], samples: number, answered: Answered): boolean;
-  /** There is no ground where it would begin. */
-  failed(): void;
+  /** There is no ground where it would begin, or, not answered, none that is known. */
+  failed(isAnswered: boolean): void;
 }
 
 /** Undefined where no answer comes. */
@@ -47,7 +47,7 @@ export class Walker {
     };
     this.ask(there, ahead, (ground) => {
       const z = ground && groundAt(ground, there.eye, this.eyeHeight);
-      if (typeof z !== "number") return this.events.failed();
+      if (typeof z !== "number") return this.events.failed(ground !== undefined);
       this.stand(there, [there.eye[0], there.eye[1]], z, undefined);
     });
   }

@@ -75,22 +75,23 @@ export function metresPerPixel(camera: Camera, heightPixels: number): number {
   return (2 * distance(camera) * Math.tan(halfFov)) / Math.max(1, heightPixels);
 }
 
+/** A world point from the eye: x right, y up, -z ahead, as the camera is rolled, unlike axesOf. */
+export function againstAxes(camera: Camera, point: Vec3): Vec3 {
+  const forward = unit(subtract(camera.target, camera.eye));
+  const right = unit(cross(forward, camera.up));
+  const offset = subtract(point, camera.eye);
+  return [dot(offset, right), dot(offset, cross(right, forward)), -dot(offset, forward)];
+}
+
 /**
  * Where a world point appears, as a share of the picture's width and height from its upper left
  * corner; undefined behind the eye.
  */
 export function project(camera: Camera, point: Vec3, aspect: number): [number, number] | undefined {
-  const forward = unit(subtract(camera.target, camera.eye));
-  const right = unit(cross(forward, camera.up)); // as it is rolled, unlike the hand's axes
-  const up = cross(right, forward);
-  const offset = subtract(point, camera.eye);
-  const depth = dot(offset, forward);
-  if (!(depth > 0)) return undefined;
-  const halfHeight = depth * Math.tan((camera.fovyDegrees * Math.PI) / 360);
-  return [
-    0.5 + dot(offset, right) / (2 * halfHeight * aspect),
-    0.5 - dot(offset, up) / (2 * halfHeight),
-  ];
+  const [x, y, z] = againstAxes(camera, point);
+  if (!(z < 0)) return undefined;
+  const halfHeight = -z * Math.tan((camera.fovyDegrees * Math.PI) / 360);
+  return [0.5 + x / (2 * halfHeight * aspect), 0.5 - y / (2 * halfHeight)];
 }
 
 /** Moves eye and target together. */

@@ -14,13 +14,16 @@ const cameraAt = (x: number): Camera => ({
 class StageOfTest implements Stage {
   camera: Camera | null = cameraAt(0);
   movements = 0;
+  isWatching = false;
+  exact: Blob | undefined;
   readonly pictureSize = { width: 64, height: 36 };
   move(camera: Camera): void {
+    if (this.isWatching) return;
     this.camera = camera;
     this.movements += 1;
   }
   exactNow(): Blob | undefined {
-    return undefined;
+    return this.exact;
   }
 }
 
@@ -34,6 +37,7 @@ describe("A flight deck", () => {
     vi.useFakeTimers({ toFake: ["setTimeout", "clearTimeout", "performance"] });
     vi.stubGlobal("requestAnimationFrame", (step: () => void) => setTimeout(step, frameMs));
     vi.stubGlobal("cancelAnimationFrame", clearTimeout);
+    stage.isWatching = false;
     stage.move(cameraAt(0));
     deck.load({ name: "", keys: [] });
   });
@@ -80,5 +84,31 @@ describe("A flight deck", () => {
     for (let i = 0; i < 25; ++i) frame();
     expect(deck.activity.value.kind).toBe("idle");
     expect(stage.camera).toEqual(cameraAt(-1));
+  });
+
+  it("shows nothing and saves no pictures of what another moves", async () => {
+    const keys = [0, 1, 2].map((i) => ({ seconds: i, camera: cameraAt(10 * i) }));
+    deck.load({ name: "", keys });
+    stage.isWatching = true;
+    stage.exact = new Blob(["the leader's picture"]);
+    const why = "You watch this session: take the lead to move the view";
+    await expect(deck.draw(1)).rejects.toThrow(why);
+    expect(deck.activity.value.kind).toBe("idle");
+    for (const show of [() => deck.play(), () => deck.seek(1)]) {
+      told.mockClear();
+      show();
+      expect(told).toHaveBeenLastCalledWith(why);
+      expect(deck.activity.value.kind).toBe("idle");
+    }
+  });
+
+  it("stops where another takes the lead", () => {
+    const keys = [0, 1, 2].map((i) => ({ seconds: i, camera: cameraAt(10 * i) }));
+    deck.load({ name: "", keys });
+    deck.play();
+    frame();
+    stage.isWatching = true;
+    for (let i = 0; i < 3; ++i) frame();
+    expect(deck.activity.value.kind).toBe("idle");
   });
 });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Records, plays and draws a flight.
 import type { Camera } from "../camera/camera";
-import { Value } from "../state";
+import { Value, watchingText } from "../state";
 import type { Size } from "../view/size";
 import { flightJson } from "./file";
 import { fitKeys, offBy } from "./fit";
@@ -15,6 +15,8 @@ export interface Stage {
   /** Counts up with each call of move(), whoever calls it. */
   readonly movements: number;
   readonly pictureSize: Size;
+  /** Another moves the view: move() does nothing. */
+  readonly isWatching: boolean;
   move(camera: Camera): void;
   /** The picture of the newest view, once it is exact. */
   exactNow(): Blob | undefined;
@@ -85,6 +87,7 @@ export class FlightDeck {
   seek(seconds: number): void {
     this.stop();
     this.show(seconds);
+    if (this.stage.isWatching) this.tell(watchingText);
   }
 
   private show(seconds: number): void {
@@ -151,13 +154,14 @@ export class FlightDeck {
   play(): void {
     this.stop();
     if (this.flight.value.keys.length === 0) return this.tell("There is no flight to play yet");
+    if (this.stage.isWatching) return this.tell(watchingText);
     const from = this.seconds.value < this.length ? this.seconds.value : 0;
     const start = performance.now() - 1000 * from;
     this.activity.set({ kind: "playing" });
     this.show(from);
     const step = (): void => {
-      // A hand that steers takes over.
-      if (this.stage.movements !== this.expected) return this.stop();
+      // A hand that steers takes over, as does who takes the lead.
+      if (this.stage.movements !== this.expected || this.stage.isWatching) return this.stop();
       const seconds = (performance.now() - start) / 1000;
       this.show(Math.min(seconds, this.length));
       if (seconds >= this.length) this.stop();
@@ -206,6 +210,8 @@ export class FlightDeck {
     const deadline = performance.now() + exactWithin;
     while (performance.now() < deadline) {
       if (!isWanted()) return undefined;
+      // What is exact then is another's picture.
+      if (this.stage.isWatching) throw new Error(watchingText);
       if (this.stage.movements !== this.expected)
         throw new Error("The view was moved meanwhile: no pictures are saved");
       const picture = this.stage.exactNow();

@@ -59,6 +59,8 @@ describe("A flight", () => {
     expect(problemOf(keys)).toBeUndefined();
     expect(problemOf([...keys].reverse())).toMatch(/key 2/);
     expect(problemOf([keyAt(Number.NaN, [0, 0, 0])])).toMatch(/no time/);
+    expect(problemOf([...keys, keyAt(1e15, [0, 0, 0])])).toBeUndefined();
+    expect(problemOf([...keys, keyAt(1e16, [0, 0, 0])])).toMatch(/key 4 is at 10000000000000000 s/);
   });
 
   it("is edited key by key, and stays in order", () => {
@@ -71,6 +73,7 @@ describe("A flight", () => {
     expect(moved?.[1]?.camera).toEqual(keys[0]?.camera);
     expect(withTime(keys, 0, 9)).toBeUndefined();
     expect(withTime(keys, 0, Number.NaN)).toBeUndefined();
+    expect(withTime(keys, 0, 1e308)).toBeUndefined();
   });
 
   it("is kept by the browser under its name", () => {

@@ -80,11 +80,16 @@ export function cameraAt({ keys }: Pick<Flight, "keys">, seconds: number): Camer
   };
 }
 
+/** As fabric/flight.h has it: later ones cannot be told apart. */
+const latestSeconds = 1e15;
+
 /** What makes a flight none that can be played, for the user to read, or undefined. */
 export function problemOf(keys: Keys): string | undefined {
   if (keys.length === 0) return "it has no keys";
   for (const [i, { seconds, camera }] of keys.entries()) {
     if (!Number.isFinite(seconds)) return `key ${i + 1} has no time`;
+    if (Math.abs(seconds) > latestSeconds)
+      return `key ${i + 1} is at ${seconds} s; it must be within ${latestSeconds} s`;
     const before = keys[i - 1]?.seconds;
     if (before !== undefined && !(seconds > before))
       return `key ${i + 1}, at ${seconds} s, is not after the one before, at ${before} s`;
@@ -104,11 +109,12 @@ export function withKey(keys: Keys, key: FlightKey): FlightKey[] {
 export const withoutKey = (keys: Keys, index: number): FlightKey[] =>
   keys.filter((_, i) => i !== index);
 
-/** Undefined where another key has the time, or it is none. */
+/** Undefined where another key has the time, or it is none that a flight may have. */
 export function withTime(keys: Keys, index: number, seconds: number): FlightKey[] | undefined {
   const key = keys[index];
   const isTaken = keys.some((one, i) => i !== index && one.seconds === seconds);
-  if (key === undefined || isTaken || !Number.isFinite(seconds)) return undefined;
+  const isTime = Number.isFinite(seconds) && Math.abs(seconds) <= latestSeconds;
+  if (key === undefined || isTaken || !isTime) return undefined;
   return withKey(withoutKey(keys, index), { ...key, seconds });
 }
 

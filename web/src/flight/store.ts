@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Flights that a person has named, kept by the browser.
-import type { BookmarkStorage } from "../bookmarks";
+import type { NamedStorage } from "../storage";
 import { flightJson, flightOfJson } from "./file";
 import type { Flight } from "./flight";
 
 const key = "eyrie.flights";
 
 /** In the order of their names; what cannot be read is left out. */
-export function readFlights(storage: BookmarkStorage): Flight[] {
+export function readFlights(storage: NamedStorage): Flight[] {
   try {
     const texts: unknown = JSON.parse(storage.getItem(key) ?? "[]");
     if (!Array.isArray(texts)) return [];
@@ -23,7 +23,7 @@ export function readFlights(storage: BookmarkStorage): Flight[] {
   }
 }
 
-function write(storage: BookmarkStorage, flights: readonly Flight[]): boolean {
+function write(storage: NamedStorage, flights: readonly Flight[]): boolean {
   const sorted = [...flights].sort((a, b) => a.name.localeCompare(b.name));
   try {
     storage.setItem(key, JSON.stringify(sorted.map(flightJson)));
@@ -33,13 +33,13 @@ function write(storage: BookmarkStorage, flights: readonly Flight[]): boolean {
   }
 }
 
-const others = (storage: BookmarkStorage, name: string): Flight[] =>
+const others = (storage: NamedStorage, name: string): Flight[] =>
   readFlights(storage).filter((one) => one.name !== name);
 
 /** Replaces one of the same name; false where the browser keeps no more. */
-export const keepFlight = (storage: BookmarkStorage, flight: Flight): boolean =>
+export const keepFlight = (storage: NamedStorage, flight: Flight): boolean =>
   write(storage, [...others(storage, flight.name), flight]);
 
-export function removeFlight(storage: BookmarkStorage, name: string): void {
+export function removeFlight(storage: NamedStorage, name: string): void {
   write(storage, others(storage, name));
 }

@@ -74,7 +74,7 @@ export function showDisplays(state: State, viewer: Viewer): void {
   const change = (by: Partial<Output>): void => state.output.set({ ...state.output.value, ...by });
   const layout = select("layout", "Layout", "How renderers share the work; for everybody", (to) => {
     const canvas = canvasOf(state.session.value?.canvases ?? [], state.output.value.canvas);
-    if (canvas !== undefined) viewer.switchLayout(canvas.name, to);
+    if (canvas !== undefined && !viewer.switchLayout(canvas.name, to)) show();
   });
   const canvas = select("canvas", "Canvas", "Which canvas is seen here", (to) =>
     change({ canvas: to, segment: "" }),

@@ -6,6 +6,7 @@ import { flightJson, flightOfJson } from "../flight/file";
 import { pathOf } from "../flight/paths";
 import { keepFlight, readFlights, removeFlight } from "../flight/store";
 import type { State } from "../state";
+import { browserStorage } from "../storage";
 import type { Viewer } from "../viewer";
 import { download } from "./clipboard";
 import { button, byId, make, setText } from "./element";
@@ -69,10 +70,10 @@ function keptFlights(deck: FlightDeck, state: State): HTMLElement {
   name.maxLength = 80;
   name.placeholder = name.ariaLabel = "Name of the flight";
   const fill = (): void => {
-    const rows = readFlights(localStorage).map((flight) => {
+    const rows = readFlights(browserStorage()).map((flight) => {
       const load = button(flight.name, `Load ${flight.name}`, () => deck.load(flight));
       const remove = button("×", `Remove ${flight.name}`, () => {
-        removeFlight(localStorage, flight.name);
+        removeFlight(browserStorage(), flight.name);
         fill();
         name.focus();
       });
@@ -94,8 +95,12 @@ function keptFlights(deck: FlightDeck, state: State): HTMLElement {
     const flight = deck.flight.value;
     if (flight.keys.length === 0 || flight.name === "")
       return state.notice.set("A flight that is kept has a name and a key");
-    const isKept = keepFlight(localStorage, flight);
-    state.notice.set(isKept ? `Kept as ${flight.name}` : "This browser keeps no more flights");
+    const isKept = keepFlight(browserStorage(), flight);
+    state.notice.set(
+      isKept
+        ? `Kept as ${flight.name}`
+        : "This browser keeps no more flights: it is full, or forbids it",
+    );
     fill();
   });
   deck.flight.watch((flight) => {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measuring by clicks: lengths, heights and areas between points, with how far off they may be, and
 // the heights along the last line.
-import { project } from "../camera/camera";
 import type { Measure, MeasuredPoint } from "../measure";
 import { mapArea, mapLength, pathLength, rise } from "../measure";
+import { appearance } from "../pick";
 import type { Profile } from "../profile";
 import { chartOf, heightAlong } from "../profile";
 import type { Shown } from "../protocol/messages";
@@ -45,7 +45,7 @@ export function rowsOf(
   return rows;
 }
 
-/** Where points are in a picture of 100 x 100; those behind the eye part the line. */
+/** Where points are in a picture of 100 x 100; those that it cannot show part the line. */
 export function overlayRuns(
   points: readonly MeasuredPoint[],
   shown: Shown | null,
@@ -53,7 +53,7 @@ export function overlayRuns(
   if (shown === null) return [];
   const runs: [number, number][][] = [[]];
   for (const { position } of points) {
-    const at = project(shown.camera, position, shown.width / shown.height);
+    const at = appearance(shown, position);
     if (at !== undefined) runs[runs.length - 1]?.push([100 * at[0], 100 * at[1]]);
     else runs.push([]);
   }

@@ -34,8 +34,11 @@ export function lossText(connection: Connection, now: number): string {
   return `${Math.max(0, Math.floor((now - connection.since) / 1000))} s`;
 }
 
-/** "No." of the server's "no". */
-const sentence = (text: string): string => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;
+/** "No file." of the server's "no file"; "" of nothing. What begins with a name keeps that. */
+function sentence(text: string): string {
+  const end = text === "" || /[.!?…]$/.test(text) ? "" : ".";
+  return `${text.replace(/^[a-z]+(?=[ ,]|$)/, (word) => word.charAt(0).toUpperCase() + word.slice(1))}${end}`;
+}
 
 /** What the scripts are built for, and workers that are modules; index.html says the same. */
 const useAnother =
@@ -70,11 +73,12 @@ export function messageFor(situation: Situation): Message | null {
     return {
       title: "No renderer is running",
       text:
-        session.problem ||
+        sentence(session.problem) ||
         "The coordinator is up, but nothing draws for it. Start a renderer that registers there:",
       command: startRenderer,
     };
-  if (session.problem !== "") return { title: "There is no picture", text: session.problem };
+  if (session.problem !== "")
+    return { title: "There is no picture", text: sentence(session.problem) };
   if (session.sceneBounds === undefined)
     return { title: "Opening the scene", text: "The renderers are reading it." };
   if (session.place?.led === false)
@@ -95,8 +99,8 @@ export function bannerFor({ connection, session, hasPicture }: Situation): strin
   if (connection.kind === "closed") return `This session was closed. ${closedText}`;
   if (session === null) return null;
   if (!hasRenderer(session))
-    return `No renderer is left; this is the last picture. ${session.problem || `Start one with: ${startRenderer}`}`;
-  return session.problem === "" ? null : `This is the last picture. ${session.problem}`;
+    return `No renderer is left; this is the last picture. ${sentence(session.problem) || `Start one with: ${startRenderer}`}`;
+  return session.problem === "" ? null : `This is the last picture. ${sentence(session.problem)}`;
 }
 
 /** In a browser that cannot show pictures there is nothing to press either. */

@@ -2,7 +2,7 @@
 // The objects of a scene: each shown or left out, alone, brought into view, and with a shading and a
 // colour of its own.
 import type { Look, ObjectLook } from "../look";
-import { fromHex, objectLook, toHex, withHidden, withObjectLook } from "../look";
+import { fromHex, maxObjects, objectLook, toHex, withHidden, withObjectLook } from "../look";
 import type { ObjectState } from "../protocol/messages";
 import { ObjectKind } from "../protocol/messages";
 import type { State } from "../state";
@@ -83,14 +83,19 @@ function objectRow(state: State, viewer: Viewer, object: number): Shown {
   const name = objectNames[object] ?? "";
   const isShown = make("input", "");
   isShown.type = "checkbox";
+  const hide = (hidden: readonly number[]): void => {
+    if (hidden.length <= maxObjects) return change(state, { hidden });
+    state.notice.set(`At most ${maxObjects} objects can be hidden`);
+    isShown.checked = !state.look.value.hidden.includes(object);
+  };
   isShown.addEventListener("change", () =>
-    change(state, { hidden: withHidden(state.look.value.hidden, object, !isShown.checked) }),
+    hide(withHidden(state.look.value.hidden, object, !isShown.checked)),
   );
   const title = make("span", "object-name", name);
   title.title = name;
   const label = make("label", "object-label", isShown, title);
   const only = button("Only", `Show ${name} alone, or all again`, () =>
-    change(state, { hidden: alone(state.look.value.hidden, object, objectNames.length) }),
+    hide(alone(state.look.value.hidden, object, objectNames.length)),
   );
   const go = button("Go to", `Bring ${name} into view`, () => viewer.goToObject(object));
   only.ariaLabel = only.title;

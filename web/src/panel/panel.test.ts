@@ -109,6 +109,21 @@ describe("the message in place of a picture", () => {
     expect(statusOf(refused, null, false).text).toBe("Refused");
   });
 
+  it("has the server's words as sentences", () => {
+    const said = (state: SessionState, hasPicture: boolean) => {
+      const situation = { connection: connected, session: state, hasPicture };
+      return bannerFor(situation) ?? messageFor(situation)?.text;
+    };
+    const opening = session(1, 0, "opening the scene…");
+    expect(said(opening, true)).toBe("This is the last picture. Opening the scene…");
+    expect(said(opening, false)).toBe("Opening the scene…");
+    const none = session(0, 1, "no renderer is connected");
+    expect(said(none, true)).toMatch(/last picture. No renderer is connected.$/);
+    expect(said(none, false)).toBe("No renderer is connected.");
+    const named = session(1, 0, "look.saturation is 3; it must be from 0 to 2");
+    expect(said(named, false)).toBe("look.saturation is 3; it must be from 0 to 2.");
+  });
+
   it("does not promise a picture where nobody leads", () => {
     const shared = session(1);
     shared.place = create(ViewerPlaceSchema, { session: "review", viewers: 1, led: false });

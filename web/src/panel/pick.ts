@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a click found: a mark on the picture, and a card that says where that is and how surely.
-import { project } from "../camera/camera";
+import { appearance } from "../pick";
 import type { Shown } from "../protocol/messages";
 import type { Pick, PickedPoint, State } from "../state";
 import { byId, make, setText } from "./element";
@@ -55,7 +55,7 @@ export function textOf(pick: Pick): PickText {
 export function markOf(pick: Pick | null, shown: Shown | null): [number, number] | undefined {
   if (pick?.kind !== "point" || shown === null) return undefined;
   if (pick.exaggeration !== shown.exaggeration) return undefined;
-  const at = project(shown.camera, pick.position, shown.width / shown.height);
+  const at = appearance(shown, pick.position);
   return at?.every((share) => share >= 0 && share <= 1) ? at : undefined;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The view as a picture larger than the window, saved as a file.
 import { imageRequest } from "../command";
+import { isPacked } from "../output";
 import { drawPoster, largestSide, posterSize } from "../poster/poster";
 import type { State } from "../state";
 import type { Viewer } from "../viewer";
@@ -39,6 +40,8 @@ export function posterField(state: State, viewer: Viewer): HTMLElement {
   const save = async (): Promise<void> => {
     const view = viewer.sharedView();
     if (view === null) return;
+    if (isPacked(viewer.output))
+      return state.notice.set("No poster of two eyes in one picture: choose one, or an anaglyph");
     const size = posterSize(viewer.pictureSize, Number(select.value));
     drawing = new AbortController();
     select.disabled = true;

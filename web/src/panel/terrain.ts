@@ -7,6 +7,7 @@ import type { State } from "../state";
 import type { Viewer } from "../viewer";
 import { byId, make, setText } from "./element";
 import { metres, times } from "./format";
+import { onKeys } from "./keys";
 import { change, slider, toggles } from "./look_controls";
 import { transferEditor } from "./transfer";
 
@@ -142,16 +143,15 @@ export function showTerrain(state: State, viewer: Viewer): void {
     ]),
   );
 
+  onKeys({ c: toggleContours, x: toggleFrozen, u: toggleUnderground });
+  // These go on while they are held.
   const keys: Readonly<Record<string, () => void>> = {
-    c: toggleContours,
-    x: toggleFrozen,
-    u: toggleUnderground,
     "[": () => exaggerate(-0.1),
     "]": () => exaggerate(0.1),
     "\\": () => change(state, { exaggeration: 1 }),
   };
   window.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || isText(event.target)) return;
-    keys[event.key.toLowerCase()]?.();
+    keys[event.key]?.();
   });
 }

@@ -67,6 +67,7 @@ function percentField(name: string, least: number, changed: (share: number) => v
     const percent = Number(input.value);
     if (input.value !== "" && Number.isFinite(percent))
       changed(Math.min(100, Math.max(least, percent)) / 100);
+    else input.value = input.defaultValue;
   });
   return input;
 }
@@ -98,8 +99,9 @@ function makeRow(change: (by?: Partial<Primitive>) => void): Row {
   const show = (primitive: Primitive): void => {
     colour.value = toHex(primitive.colour);
     shape.value = primitive.shape;
-    centre.value = String(Math.round(primitive.centre * 100));
-    width.value = String(Math.round(primitive.width * 100));
+    // What is typed in and is no number leads back to the default value.
+    centre.value = centre.defaultValue = String(Math.round(primitive.centre * 100));
+    width.value = width.defaultValue = String(Math.round(primitive.width * 100));
   };
   return { element: make("div", "primitive", colour, shape, centre, width, remove), show };
 }

@@ -7,6 +7,7 @@ import { cameraJson, curlCommand, imageRequest, pythonScript, renderCommand } fr
 import { decodeView, encodeView } from "../share";
 import type { SharedView } from "../share";
 import type { State } from "../state";
+import { browserStorage } from "../storage";
 import type { Viewer } from "../viewer";
 import { copyText, download } from "./clipboard";
 import { configuredFor } from "./displays";
@@ -26,10 +27,10 @@ function bookmarkList(state: State, viewer: Viewer): HTMLElement {
   name.placeholder = "Name of this view";
   name.ariaLabel = "Name of the bookmark";
   const fill = (): void => {
-    const rows = readBookmarks(localStorage).map((bookmark) => {
+    const rows = readBookmarks(browserStorage()).map((bookmark) => {
       const go = button(bookmark.name, `Show ${bookmark.name}`, () => viewer.show(bookmark.view));
       const remove = button("×", `Remove ${bookmark.name}`, () => {
-        removeBookmark(localStorage, bookmark.name);
+        removeBookmark(browserStorage(), bookmark.name);
         fill();
         name.focus();
       });
@@ -48,9 +49,13 @@ function bookmarkList(state: State, viewer: Viewer): HTMLElement {
     event.preventDefault();
     const view = viewer.sharedView();
     const title = name.value.trim();
-    if (view === null || title === "") return;
-    const isKept = addBookmark(localStorage, title, view);
-    state.notice.set(isKept ? `Kept as ${title}` : "This browser keeps no more bookmarks");
+    if (view === null || title === "") return state.notice.set("A view that is kept has a name");
+    const isKept = addBookmark(browserStorage(), title, view);
+    state.notice.set(
+      isKept
+        ? `Kept as ${title}`
+        : "This browser keeps no more bookmarks: it is full, or forbids it",
+    );
     name.value = "";
     fill();
   });
@@ -126,7 +131,9 @@ export function showViews(state: State, viewer: Viewer): void {
   const keys: Record<string, (time: number) => void> = { l: link, k: command, o: save };
   standardViews.forEach((view, i) => {
     const key = String(i + 1);
-    standard.append(button(view.name, `${view.name} (${key})`, () => viewer.goTo(i)));
+    standard.append(
+      button(view.name, `${view.name} (${key})`, () => viewer.goTo(i, performance.now())),
+    );
     keys[key] = (time) => viewer.goTo(i, time);
   });
   onKeys(keys);

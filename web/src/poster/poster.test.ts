@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
 import { chunk, filtered, PngWriter } from "./png";
-import { bandsOf, posterSize, sideBySide } from "./poster";
+import type { ImageRequest } from "../command";
+import { bandsOf, drawPoster, posterSize, sideBySide } from "./poster";
 
 async function inflated(data: Blob): Promise<Uint8Array> {
   const stream = data.stream().pipeThrough(new DecompressionStream("deflate"));
@@ -109,5 +110,16 @@ describe("a poster", () => {
     expect([...whole].filter((_, i) => i % 4 === 0)).toEqual([1, 1, 2, 1, 1, 2]);
     const one = part(3, 2);
     expect(sideBySide([one], 2)).toBe(one.rgba);
+  });
+});
+
+describe("a poster of a server that is away", () => {
+  it("says so", async () => {
+    vi.stubGlobal("window", { location: { href: "http://127.0.0.1/" } });
+    vi.stubGlobal("fetch", () => Promise.reject(new TypeError("Failed to fetch")));
+    const request = { width: 64, height: 36 } as ImageRequest;
+    const drawn = drawPoster(request, () => {}, new AbortController().signal);
+    await expect(drawn).rejects.toThrow("the server does not answer");
+    vi.unstubAllGlobals();
   });
 });

@@ -3,6 +3,7 @@
 // whole (docs/decisions/0036-posters-by-bands.md), put together here.
 import type { ImageRequest } from "../command";
 import { imageAddress } from "../command";
+import { ask } from "../protocol/ask";
 import type { Size } from "../view/size";
 import { PngWriter } from "./png";
 
@@ -52,7 +53,7 @@ interface Drawn {
 }
 
 async function draw(request: ImageRequest, part: Part, signal: AbortSignal): Promise<Drawn> {
-  const response = await fetch(imageAddress(window.location.href), {
+  const response = await ask(imageAddress(window.location.href), {
     method: "POST",
     headers: { "Content-Type": "application/json" },
     body: JSON.stringify({ ...request, format: "IMAGE_FORMAT_RAW", part }),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The configuration that pictures are made by, over REST: what its compounds are, and how their
 // equalizers work. eyrie/v1/configuration.proto as JSON, of which only what is shown is read.
+import { ask } from "./ask";
 
 export type EqualizerKind = "load" | "tree" | "dfr" | "tile" | "view" | "monitor" | "framerate";
 
@@ -147,7 +148,7 @@ async function problemOf(response: Response): Promise<Error> {
 
 /** With what equalizers have come to, if so asked. Throws an Error, for the user to read, where there is none. */
 export async function readConfiguration(isMeasured = false): Promise<ConfigurationAnswer> {
-  const response = await fetch(isMeasured ? `${address}?measured=true` : address, {
+  const response = await ask(isMeasured ? `${address}?measured=true` : address, {
     cache: "no-store",
   });
   if (!response.ok) throw await problemOf(response);
@@ -156,7 +157,7 @@ export async function readConfiguration(isMeasured = false): Promise<Configurati
 
 /** For everybody, from the next frame on. Throws an Error, for the user to read. */
 export async function tuneEqualizer(position: number, change: EqualizerChange): Promise<void> {
-  const response = await fetch(address, {
+  const response = await ask(address, {
     method: "PATCH",
     headers: { "Content-Type": "application/json" },
     body: JSON.stringify({ equalizers: [{ equalizer: position, ...change }] }),

@@ -64,6 +64,7 @@ export type {
   RendererState,
   SeenArea,
   SessionState,
+  Sight,
   ViewerPicked,
   ViewerPlace,
   ViewerProfiled,
@@ -99,6 +100,8 @@ export interface Shown {
    * picture is the camera's own.
    */
   seen: readonly SeenArea[] | null;
+  /** Two eyes in one picture: it fills the canvas whatever its shape, each eye a half. */
+  isPacked: boolean;
 }
 
 /** A place in what one sight spans, in pixels from its lower left corner, y upwards. */

@@ -32,7 +32,7 @@ export class PictureCanvas {
     readonly element: HTMLCanvasElement,
     private readonly events: CanvasEvents,
   ) {
-    element.style.objectFit = "cover"; // as pick.ts reckons, whoever the canvas is of
+    this.setFilled(false); // whoever the canvas is of
     this.worker = new Worker(new URL("./decode.worker.ts", import.meta.url), { type: "module" });
     this.worker.onmessage = (event: MessageEvent<FromWorker>) => this.reported(event.data);
     this.worker.onerror = () => {
@@ -47,6 +47,11 @@ export class PictureCanvas {
 
   static isSupported(): boolean {
     return typeof OffscreenCanvas !== "undefined" && typeof createImageBitmap !== "undefined";
+  }
+
+  /** Whether pictures fill it whatever their shape, or cover it and lose two sides. */
+  setFilled(isFilled: boolean): void {
+    this.element.style.objectFit = isFilled ? "fill" : "cover"; // as pick.ts reckons
   }
 
   size(): Size {

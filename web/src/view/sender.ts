@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { isPacked } from "../output";
 import type { Shown, View } from "../protocol/messages";
 import { Latency } from "./measure";
 
@@ -106,9 +107,10 @@ export class ViewSender {
     }
     this.content = content;
     this.sequence += 1;
-    const { camera, width, height, look } = view;
+    const { camera, width, height, look, output } = view;
     const { exaggeration, hidden } = look;
-    this.sent.set(this.sequence, { camera, width, height, exaggeration, hidden, seen: null });
+    const shown = { camera, width, height, exaggeration, hidden };
+    this.sent.set(this.sequence, { ...shown, seen: null, isPacked: isPacked(output) });
     this.latency.sent(this.sequence, performance.now(), inputTime);
   }
 }
