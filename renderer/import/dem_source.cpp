@@ -17,6 +17,7 @@
 #include "renderer/import/dem_warp.h"
 #include "renderer/import/joined_dems.h"
 #include "renderer/import/local_projection.h"
+#include "renderer/import/raster_file.h"
 #include "renderer/terrain/quadtree.h"
 
 namespace eyrie::import {
@@ -131,9 +132,9 @@ private:
         if (GDALRasterIO(layer.band(), GF_Read, i0 - static_cast<int>(box.column),
                          j0 - static_cast<int>(box.row), columns, rows, buffer_.data(), columns,
                          rows, GDT_Float32, 0, 0) != CE_None)
-            return absl::DataLossError(
-                fmt::format("{}: rows {} to {} cannot be read ({}); the file may be truncated",
-                            nameOf(layer.files), j0 - box.row, j1 - 1 - box.row, gdal.takeError()));
+            return absl::DataLossError(fmt::format(
+                "{}: rows {} to {} cannot be read ({}); {}", nameOf(layer.files), j0 - box.row,
+                j1 - 1 - box.row, gdal.takeError(), whyUnreadable(layer.files.front().path)));
         constexpr float kImpossible = 1e30F;
         for (int v = 0; v < rows; ++v) {
             const int row = isFlipped_ ? window.rows - 1 - (j0 - firstRow + v) : j0 - firstRow + v;

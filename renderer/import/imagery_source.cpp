@@ -14,6 +14,7 @@
 #include "fabric/status.h"
 #include "renderer/import/colour_file.h"
 #include "renderer/import/colour_warp.h"
+#include "renderer/import/raster_file.h"
 
 namespace eyrie::import {
 namespace {
@@ -77,9 +78,9 @@ private:
                                 static_cast<int>(part.y - layer.box.y), part.columns, part.rows,
                                 buffer_.data(), part.columns, part.rows, GDT_Byte, kBands, nullptr,
                                 kBands, kBands * part.columns, 1) != CE_None)
-            return absl::DataLossError(
-                fmt::format("{}: its pixels cannot be read ({}); the file may be truncated",
-                            layer.file.path, gdal.takeError()));
+            return absl::DataLossError(fmt::format("{}: its pixels cannot be read ({}); {}",
+                                                   layer.file.path, gdal.takeError(),
+                                                   whyUnreadable(layer.file.path)));
         const fabric::Rgba* from = buffer_.data();
         for (std::int32_t v = 0; v < part.rows; ++v) {
             fabric::Rgba* to = out + (part.y + v - window.y) * window.columns + (part.x - window.x);

@@ -11,7 +11,7 @@
 
 namespace eyrie::import {
 
-/// The name under which GDAL looks into a .gz or .zip.
+/// The name under which GDAL reads a file at an address part by part, and looks into a .gz or .zip.
 std::string gdalPath(const std::string& path);
 
 /// A raster by any name that GDAL knows, see raster_name.h. So that a mosaic may have thousands, it
@@ -27,6 +27,9 @@ absl::Status checkPlace(const std::string& path, GDALDatasetH raster);
 /// ResourceExhausted, with `path` to blame, when this process can open no more files: to be asked
 /// when something could not be opened.
 absl::Status checkOpenFiles(const std::string& path);
+
+/// Why a raster that could be opened may not be readable, for messages.
+std::string whyUnreadable(const std::string& path);
 
 /// Files that a raster consists of, as GDAL names them.
 std::vector<std::string> filesOf(GDALDatasetH raster);

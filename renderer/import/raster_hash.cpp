@@ -11,14 +11,16 @@
 #include "renderer/import/file_hash.h"
 #include "renderer/import/raster_file.h"
 #include "renderer/import/raster_name.h"
+#include "renderer/page/remote_name.h"
 
 namespace eyrie::import {
 namespace {
 
 /// Of what was named: the file or, where it is something in a file, which.
 absl::StatusOr<std::uint64_t> hashNamed(const std::string& path, const std::string& folder) {
-    if (VSIStatBufL status; VSIStatL(path.c_str(), &status) == 0)
-        return fileHash(path, folder);
+    const std::string name = page::gdalName(path);
+    if (VSIStatBufL status; VSIStatL(name.c_str(), &status) == 0)
+        return fileHash(name, folder);
     const std::string part = partOfFile(path);
     return XXH64(part.data(), part.size(), 0);
 }
