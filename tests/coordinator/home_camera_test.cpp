@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
@@ -29,6 +30,26 @@ TEST(HomeCamera, SeesEveryCornerOfTheSceneInA4By3Picture) {
             EXPECT_LE(std::abs(p.y), -p.z * tan);
             EXPECT_LE(std::abs(p.x), -p.z * tan * 4 / 3);
         }
+    }
+}
+
+TEST(HomeCamera, LeavesAsMuchFreeAboveAsBelowAndLeftAsRight) {
+    const fabric::Box boxes[] = {{{0, 0, 0}, {1, 1, 1}},
+                                 {{-5000, -3000, 200}, {5000, 3000, 1400}},
+                                 {{576000, 5094000, 260}, {654000, 5207000, 4370}},
+                                 {{0, 0, -1000}, {1, 1, 1000}}};
+    for (const fabric::Box& box : boxes) {
+        const fabric::Camera camera = homeCamera(box);
+        fabric::Vec2 low(1e9);
+        fabric::Vec2 high(-1e9);
+        for (int i = 0; i < 8; ++i) {
+            const fabric::Vec3 p =
+                fabric::viewFromWorldRotation(camera) * (box.corner(i) - camera.eye);
+            low = glm::min(low, fabric::Vec2(p) / -p.z);
+            high = glm::max(high, fabric::Vec2(p) / -p.z);
+        }
+        EXPECT_NEAR(low.x, -high.x, 1e-6);
+        EXPECT_NEAR(low.y, -high.y, 1e-6);
     }
 }
 
