@@ -148,6 +148,25 @@ TEST_F(ImageryImport, MayBeOnePixel) {
         *file, 10, [=](double, double) { return colour; }, 4);
 }
 
+TEST_F(ImageryImport, ThatIsCoarserThanTheElevationsCoversTheirRim) {
+    const Rgba colour{200, 120, 40, 255};
+    const std::pair<std::int32_t, std::int32_t> sizes[] = {{134, 73}, {300, 5}, {5, 300}, {97, 97}};
+    for (const auto& [columns, rows] : sizes)
+        for (const double pixel : {3.7, 16.0, 1000.0}) {
+            Picture picture =
+                over(columns - 1, rows - 1, pixel, [=](double, double) { return colour; });
+            // To the rim of the terrain and no farther, in pixels as large at most.
+            picture.columns = static_cast<int>(std::ceil((columns - 1) / pixel));
+            picture.rows = static_cast<int>(std::ceil((rows - 1) / pixel));
+            picture.isGeoreferenced = false;
+            const auto file = imported(test::slope(columns, rows, 1), {write(picture)});
+            ASSERT_NE(file, nullptr);
+            const terrain::ImageryIndex& imagery = *file->index().imagery;
+            EXPECT_EQ(imagery.coveredTexels, imagery.finestTexels())
+                << columns << " x " << rows << " posts, pixels of " << pixel << " m";
+        }
+}
+
 TEST_F(ImageryImport, LeavesHolesWhereNoPictureHasAPixel) {
     const auto colour = [](double x, double y) {
         return x < kWest + 480 || y > kSouth + 320 ? Rgba{0, 0, 0, 0} : Rgba{60, 160, 90, 255};
