@@ -148,6 +148,7 @@ absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::
             break;
     }
     RETURN_IF_ERROR(isHere(path));
+    for (const std::string& picture : imagery) RETURN_IF_ERROR(isHere(picture));
     return imported({path}, kind, imagery);
 }
 
