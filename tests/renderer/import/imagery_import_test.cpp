@@ -43,6 +43,9 @@ TEST_F(ImageryImport, StoresNothingOfTilesWithoutAPixel) {
     EXPECT_TRUE(imagery.has({0, 0, 0}));
     EXPECT_FALSE(imagery.has({0, 1, 0}));
     EXPECT_TRUE(imagery.has(imagery.pyramid.top()));
+    const test::TexelImage coarsest = test::wholeLevel(*file, imagery.pyramid.levels() - 1);
+    EXPECT_EQ(coarsest.at(0, 0).a, 255);
+    EXPECT_EQ(coarsest.at(coarsest.width - 1, coarsest.height - 1).a, 0);
 }
 
 TEST_F(ImageryImport, TakesTheFinestAndThenTheLastPicture) {
