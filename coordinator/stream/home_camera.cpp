@@ -7,7 +7,10 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
+
+#include "fabric/look.h"
 
 namespace eyrie::stream {
 namespace {
@@ -89,6 +92,24 @@ fabric::Camera homeCamera(const fabric::Box& bounds) {
     // What is orbited about lies at the height of the scene's middle.
     camera.target = camera.eye - back * ((camera.eye.z - centre.z) / back.z);
     return camera;
+}
+
+fabric::Box exaggeratedBounds(const fabric::SceneInfo& scene, double exaggeration) {
+    if (exaggeration == 1 || !scene.ground)
+        return scene.bounds;
+    std::vector<fabric::Box> boxes;
+    for (const fabric::ObjectInfo& object : scene.objects) boxes.push_back(object.bounds);
+    for (const fabric::GroundGrid& grid : *scene.ground) {
+        const auto object = static_cast<std::size_t>(grid.object);
+        if (object >= boxes.size())
+            return scene.bounds;
+        boxes[object] = fabric::transformed(
+            fabric::transformed(boxes[object], glm::inverse(grid.worldFromGrid)),
+            fabric::exaggerated(grid.worldFromGrid, exaggeration));
+    }
+    fabric::Box all;
+    for (const fabric::Box& box : boxes) all.grow(box);
+    return all;
 }
 
 }  // namespace eyrie::stream
