@@ -50,7 +50,7 @@ absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
         RETURN_IF_ERROR(control.check());
         control.report("checking",
                        static_cast<double>(files.size()) / static_cast<double>(paths.size()));
-        ASSIGN_OR_RETURN(DemFile file, openDemFile(path, gdal, hashFolder));
+        ASSIGN_OR_RETURN(DemFile file, openDemFile(path, gdal, hashFolder, control.stop));
         hash = files.empty() ? file.hash : hash * 0x9e3779b97f4a7c15 + file.hash;
         files.push_back(std::move(file));
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,7 @@ std::vector<std::string> allFilesOf(GDALDatasetH raster);
 /// As in raster_hash.h, of a raster that is open: by `path`. Its files' hashes are shared in
 /// `hashFolder`, as fileHash says; empty: not at all.
 absl::StatusOr<std::uint64_t> rasterHash(const std::string& path, GDALDatasetH raster,
-                                         const std::string& hashFolder);
+                                         const std::string& hashFolder,
+                                         const std::stop_token& stop);
 
 }  // namespace eyrie::import
