@@ -44,18 +44,19 @@ std::string lowerCaseEnding(const std::string& path) {
 /// Name of the import of `sources`: what they hold, in their order, and what made it.
 absl::StatusOr<std::string> importName(const std::vector<std::string>& sources,
                                        fabric::ObjectKind kind,
-                                       const std::vector<std::string>& imagery) {
+                                       const std::vector<std::string>& imagery,
+                                       const std::stop_token& stop) {
     if (kind == fabric::ObjectKind::Mesh) {
         ASSIGN_OR_RETURN(const std::uint64_t hash, import::meshSourceHash(sources));
         return fmt::format("{:016x}-{}.eym", hash, kMeshImporterVersion);
     }
     std::uint64_t hash = 0;
     for (const std::string& source : sources) {
-        ASSIGN_OR_RETURN(const std::uint64_t part, import::rasterHash(source));
+        ASSIGN_OR_RETURN(const std::uint64_t part, import::rasterHash(source, stop));
         hash = hash * 41 + part;
     }
     for (const std::string& picture : imagery) {
-        ASSIGN_OR_RETURN(const std::uint64_t part, import::rasterHash(picture));
+        ASSIGN_OR_RETURN(const std::uint64_t part, import::rasterHash(picture, stop));
         hash = hash * 37 + part;
     }
     return fmt::format("{:016x}-{}.eyt", hash, kTerrainImporterVersion);
@@ -148,6 +149,7 @@ absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::
             break;
     }
     RETURN_IF_ERROR(isHere(path));
+    for (const std::string& picture : imagery) RETURN_IF_ERROR(isHere(picture));
     return imported({path}, kind, imagery);
 }
 
@@ -172,7 +174,7 @@ absl::Status DataCache::reach(const std::string& url, fabric::ObjectKind kind) {
 absl::StatusOr<std::string> DataCache::imported(const std::vector<std::string>& sources,
                                                 fabric::ObjectKind kind,
                                                 const std::vector<std::string>& imagery) {
-    ASSIGN_OR_RETURN(const std::string name, importName(sources, kind, imagery));
+    ASSIGN_OR_RETURN(const std::string name, importName(sources, kind, imagery, stop_));
     const std::string target = (folder_ / name).string();
     std::error_code error;
     if (fs::exists(target, error) && opens(target, kind)) {

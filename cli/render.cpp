@@ -201,11 +201,12 @@ absl::Status checkOutputs(const Options& options) {
     return absl::OkStatus();
 }
 
-/// Where no camera is named: that of a viewer who has just come.
+/// Where no camera is named: that of a viewer who has just come, or for heights as they are shown.
 void lookAtAll(const PictureSource& pictures, const Options& options,
                coordinator::FrameRequest& request) {
     if (options.camera.empty())
-        request.camera = stream::homeCamera(pictures.sceneInfo().bounds);
+        request.camera = stream::homeCamera(
+            stream::exaggeratedBounds(pictures.sceneInfo(), request.look.exaggeration));
 }
 
 absl::Status render(const Options& options) {

@@ -107,7 +107,8 @@ absl::StatusOr<fabric::Scene> readSceneFile(const std::string& path) {
         if (!page::isRemote(object.path))
             object.path = (folder / object.path).lexically_normal().string();
         for (std::string& picture : object.imagery)
-            picture = (folder / picture).lexically_normal().string();
+            if (!page::isRemote(picture))
+                picture = (folder / picture).lexically_normal().string();
     }
     return scene;
 }

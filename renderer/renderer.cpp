@@ -76,11 +76,12 @@ absl::Status checkReach(const fabric::SceneObject& object, const fabric::Box& bo
 }
 
 /// What there is of terrains besides pages, whatever is drawn.
+/// What the indices of terrains take in memory for as long as they are open.
 std::uint64_t indexBytesOf(const std::vector<ObjectFile>& files) {
     std::uint64_t bytes = 0;
     for (const ObjectFile& file : files)
         if (const auto* terrain = std::get_if<TerrainFile>(&file))
-            bytes += draw::indexBytes(**terrain);
+            bytes += (*terrain)->indexMemoryBytes();
     return bytes;
 }
 
@@ -128,6 +129,8 @@ private:
           sources_(page::sourceOptions(options.remote.cacheFolder, options.remote.cacheBytes)) {}
 
     page::Loader& loaderFor(const fabric::SceneObject& object);
+    absl::StatusOr<TerrainFile> openTerrainFile(const std::string& path,
+                                                std::uint64_t indexLimit) const;
     absl::StatusOr<std::vector<ObjectFile>> openFiles(const fabric::Scene& scene) const;
     std::vector<draw::MemoryUse> sharesOf(const std::vector<ObjectFile>& files,
                                           std::uint64_t hostBytes) const;
@@ -195,12 +198,27 @@ page::Loader& Renderer::Impl::loaderFor(const fabric::SceneObject& object) {
     return *remoteLoader_;
 }
 
+/// Of `indexLimit` bytes its index may take. What does not fit is told before all is read.
+absl::StatusOr<TerrainFile> Renderer::Impl::openTerrainFile(const std::string& path,
+                                                            std::uint64_t indexLimit) const {
+    absl::StatusOr<TerrainFile> file = terrain::EytFile::open(path, sources_, indexLimit);
+    if (!absl::IsResourceExhausted(file.status()))
+        return file;
+    return absl::ResourceExhaustedError(fmt::format(
+        "{}; the indices of the scene's terrains may take {} bytes of host memory: raise the limit "
+        "(--host-memory of eyrie renderer), or open fewer or smaller terrains",
+        std::string(file.status().message()), options_.hostMemoryBytes));
+}
+
 absl::StatusOr<std::vector<ObjectFile>> Renderer::Impl::openFiles(
     const fabric::Scene& scene) const {
     std::vector<ObjectFile> files;
+    std::uint64_t indexBytes = 0;
     for (const fabric::SceneObject& object : scene.objects)
         if (object.kind == fabric::ObjectKind::Terrain) {
-            ASSIGN_OR_RETURN(files.emplace_back(), terrain::EytFile::open(object.path, sources_));
+            ASSIGN_OR_RETURN(files.emplace_back(),
+                             openTerrainFile(object.path, options_.hostMemoryBytes - indexBytes));
+            indexBytes = indexBytesOf(files);
         } else {
             ASSIGN_OR_RETURN(mesh::EymFile file, mesh::EymFile::open(object.path, sources_));
             files.emplace_back(std::make_shared<const mesh::EymFile>(std::move(file)));
@@ -244,11 +262,6 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
     fabric::SceneInfo info;
     ASSIGN_OR_RETURN(const std::vector<ObjectFile> files, openFiles(scene));
     const std::uint64_t indexBytes = indexBytesOf(files);
-    if (indexBytes > options_.hostMemoryBytes)
-        return absl::ResourceExhaustedError(fmt::format(
-            "the indices of the scene's terrains take {} bytes of host memory, {} are allowed; "
-            "raise the limit (--host-memory of eyrie renderer), or open fewer or smaller terrains",
-            indexBytes, options_.hostMemoryBytes));
     const std::vector<draw::MemoryUse> shares =
         sharesOf(files, options_.hostMemoryBytes - indexBytes);
     for (std::size_t i = 0; i < files.size(); ++i) {

@@ -3,6 +3,7 @@
 
 #include "fabric/box.h"
 #include "fabric/camera.h"
+#include "fabric/scene.h"
 
 namespace eyrie::stream {
 
@@ -13,5 +14,8 @@ namespace eyrie::stream {
 /// that it stands before the viewer. All eight corners of the box lie inside a 4:3 picture (and so
 /// inside every wider one) with a field of view of 45 degrees.
 fabric::Camera homeCamera(const fabric::Box& bounds);
+
+/// World space: a box of the scene with its terrains' heights drawn times `exaggeration`.
+fabric::Box exaggeratedBounds(const fabric::SceneInfo& scene, double exaggeration);
 
 }  // namespace eyrie::stream

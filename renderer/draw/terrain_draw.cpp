@@ -372,13 +372,6 @@ MemoryUse greatestUse(const terrain::EytFile& file, TextureFormat format) {
     return TerrainItems(file.index(), format).greatestUse();
 }
 
-std::uint64_t indexBytes(const terrain::EytFile& file) {
-    const terrain::EytIndex& index = file.index();
-    const std::size_t textures = index.imagery ? index.imagery->tiles.size() : 0;
-    return index.tiles.size() * sizeof(terrain::TileRecord) +
-           (index.pages.size() + textures) * sizeof(terrain::PageRecord);
-}
-
 absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(
     const fabric::SceneObject& object, std::shared_ptr<const terrain::EytFile> file,
     TerrainPrograms& programs, page::Loader& loader, const TerrainMemory& limits,

@@ -18,11 +18,8 @@ namespace eyrie::draw {
 
 using TerrainPrograms = effects::EffectVariants<effects::TerrainEffect>;
 
-/// What a terrain may take with all of it in memory, at most.
+/// What a terrain may take with all of it in memory, at most, besides its index.
 MemoryUse greatestUse(const terrain::EytFile& file, TextureFormat format);
-
-/// What its index takes in host memory for as long as it is open, besides that.
-std::uint64_t indexBytes(const terrain::EytFile& file);
 
 /// Draws `file` as `object`. `programs`, `loader` and `decoding` outlive what is returned. Errors:
 /// those of TerrainPaging::open and of DecodeChoice::decoderFor.

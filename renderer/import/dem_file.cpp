@@ -284,7 +284,7 @@ fabric::Vec2 centreOf(const DemFile& file) {
 }
 
 absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
-                                    const std::string& hashFolder) {
+                                    const std::string& hashFolder, const std::stop_token& stop) {
     DemFile file;
     file.path = path;
     ASSIGN_OR_RETURN(
@@ -309,7 +309,7 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
     if (crs != nullptr)
         file.crs.reset(OSRClone(crs));
     cutToOneTurn(crs, file.reference, file.columns);
-    ASSIGN_OR_RETURN(file.hash, rasterHash(path, dataset.get(), hashFolder));
+    ASSIGN_OR_RETURN(file.hash, rasterHash(path, dataset.get(), hashFolder, stop));
     const auto impossible = std::make_shared<std::optional<ImpossibleHeight>>();
     file.impossible = impossible;
     file.dataset.reset(GDALDataset::ToHandle(

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,8 @@ struct DemFile {
 fabric::Vec2 centreOf(const DemFile& file);
 
 /// Looks at everything but the pixels. Errors: those of openRaster; InvalidArgument (not heights,
-/// no usable georeference).
+/// no usable georeference); Cancelled.
 absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
-                                    const std::string& hashFolder);
+                                    const std::string& hashFolder, const std::stop_token& stop);
 
 }  // namespace eyrie::import

@@ -1,477 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/dem_source.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
-#include <glm/trigonometric.hpp>
-#include <malloc.h>
 
 #include "fabric/status.h"
 #include "renderer/import/dem_file.h"
-#include "renderer/import/dem_warp.h"
-#include "renderer/import/joined_dems.h"
-#include "renderer/import/local_projection.h"
-#include "renderer/terrain/quadtree.h"
+#include "renderer/import/dem_mosaic.h"
+#include "renderer/import/layered_dems.h"
 
 namespace eyrie::import {
 namespace {
-
-using fabric::Vec2;
-
-/// What GDAL keeps of blocks that it has read.
-constexpr std::uint64_t kCacheBytes = std::uint64_t{48} << 20;
-
-std::string nameOf(const std::vector<DemFile>& files) {
-    return files.size() == 1 ? files.front().path
-                             : fmt::format("{} and {} more", files.front().path, files.size() - 1);
-}
-
-/// One raster of a mosaic, as pixels of the mosaic.
-struct Layer {
-    std::vector<DemFile> files;  ///< one, or several of one grid, best first
-    Dataset joined;              ///< null: of one
-    Dataset warped;              ///< null: the file's own pixels
-    PixelBox box;
-
-    GDALDatasetH source() const { return joined ? joined.get() : files.front().dataset.get(); }
-    GDALRasterBandH band() const { return GDALGetRasterBand(warped ? warped.get() : source(), 1); }
-};
-
-double determinant(const Georeference& g) {
-    return g.perColumn.x * g.perRow.y - g.perColumn.y * g.perRow.x;
-}
-
-/// Side of a pixel, about.
-double pixelMetres(const DemFile& file) {
-    constexpr double kMetresPerDegree = 111320;
-    const double side = std::sqrt(std::abs(determinant(file.reference)));
-    if (file.isGeographic())
-        return side * kMetresPerDegree *
-               std::sqrt(std::max(0.01, std::cos(centreOf(file).y * M_PI / 180)));
-    return file.crs ? side * OSRGetLinearUnits(file.crs.get(), nullptr) : side;
-}
-
-/// `out` rows from the last to the first where the raster's first row is the frame's last.
-class LayeredSource : public HeightSource {
-public:
-    /// Best layer first. `reference` is in metres, of a raster of columns x rows.
-    LayeredSource(std::vector<Layer> layers, const Georeference& reference, int columns, int rows)
-        : layers_(std::move(layers)), isFlipped_(determinant(reference) < 0) {
-        frame_ = {columns, rows, reference.origin + (reference.perColumn + reference.perRow) * 0.5,
-                  reference.perColumn, reference.perRow};
-        if (!isFlipped_)
-            return;
-        frame_.origin += reference.perRow * static_cast<double>(rows - 1);
-        frame_.perRow = Vec2(0.0) - reference.perRow;  // no negative zeros
-    }
-
-    const terrain::GridFrame& frame() const override { return frame_; }
-    bool isLastRowFirst() const override { return isFlipped_; }
-
-    absl::Status read(const terrain::PostRect& window, float* out) override {
-        const auto count =
-            static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows);
-        std::fill_n(out, count, terrain::kNodata);
-        bool isFirst = true;
-        for (const Layer& layer : layers_) {
-            if (!isFirst && std::none_of(out, out + count, [](float h) { return h != h; }))
-                break;
-            RETURN_IF_ERROR(addLayer(layer, window, out));
-            isFirst = false;
-        }
-        return absl::OkStatus();
-    }
-
-    std::vector<std::string> findings() const override {
-        std::vector<std::string> findings = findings_;
-        for (const Layer& layer : layers_)
-            for (const DemFile& file : layer.files)
-                if (const auto& found = *file.impossible)
-                    findings.push_back(fmt::format(
-                        "{} in column {} and row {} of {} can be no height; it is taken for "
-                        "nodata, and so is what else is like it",
-                        found->value, found->column, found->row, file.path));
-        return findings;
-    }
-
-    void foundBefore(std::vector<std::string> findings) override {
-        findings_ = std::move(findings);
-    }
-
-    std::uint64_t release() override {
-        findings_ = findings();
-        layers_.clear();
-        buffer_ = {};
-        malloc_trim(0);          // blocks are small: the heap would keep them
-        return kCacheBytes / 2;  // so much less the process holds: measured
-    }
-
-private:
-    /// Fills in what is nodata so far.
-    absl::Status addLayer(const Layer& layer, const terrain::PostRect& window, float* out) {
-        const int firstRow = isFlipped_ ? frame_.rows - window.j - window.rows : window.j;
-        const auto box = layer.box;
-        const int i0 = std::max(window.i, static_cast<int>(box.column));
-        const int j0 = std::max(firstRow, static_cast<int>(box.row));
-        const int i1 =
-            std::min(window.i + window.columns, static_cast<int>(box.column) + box.columns);
-        const int j1 = std::min(firstRow + window.rows, static_cast<int>(box.row) + box.rows);
-        if (i0 >= i1 || j0 >= j1)
-            return absl::OkStatus();
-        const int columns = i1 - i0;
-        const int rows = j1 - j0;
-        buffer_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-        QuietGdal gdal;
-        if (GDALRasterIO(layer.band(), GF_Read, i0 - static_cast<int>(box.column),
-                         j0 - static_cast<int>(box.row), columns, rows, buffer_.data(), columns,
-                         rows, GDT_Float32, 0, 0) != CE_None)
-            return absl::DataLossError(
-                fmt::format("{}: rows {} to {} cannot be read ({}); the file may be truncated",
-                            nameOf(layer.files), j0 - box.row, j1 - 1 - box.row, gdal.takeError()));
-        constexpr float kImpossible = 1e30F;
-        for (int v = 0; v < rows; ++v) {
-            const int row = isFlipped_ ? window.rows - 1 - (j0 - firstRow + v) : j0 - firstRow + v;
-            float* to = out + static_cast<std::ptrdiff_t>(row) * window.columns + (i0 - window.i);
-            const float* from = buffer_.data() + static_cast<std::ptrdiff_t>(v) * columns;
-            for (int u = 0; u < columns; ++u)
-                if (to[u] != to[u] && std::abs(from[u]) < kImpossible)
-                    to[u] = from[u];
-        }
-        return absl::OkStatus();
-    }
-
-    std::vector<Layer> layers_;
-    bool isFlipped_;
-    terrain::GridFrame frame_;
-    std::vector<float> buffer_;
-    std::vector<std::string> findings_;  ///< before, and in layers that have been released
-};
-
-/// Enlarges `all` (none: of nothing) by `box`.
-void addTo(std::optional<PixelBox>& all, const PixelBox& box) {
-    const PixelBox before = all.value_or(box);
-    const std::int64_t endColumn =
-        std::max(before.column + before.columns, box.column + box.columns);
-    const std::int64_t endRow = std::max(before.row + before.rows, box.row + box.rows);
-    all = PixelBox{std::min(before.column, box.column), std::min(before.row, box.row), 0, 0};
-    all->columns = static_cast<int>(endColumn - all->column);
-    all->rows = static_cast<int>(endRow - all->row);
-}
-
-absl::Status checkSize(const std::string& path, std::int64_t columns, std::int64_t rows) {
-    if (columns < 2 || rows < 2)
-        return invalid(
-            path, fmt::format("has {} x {} posts; a terrain needs at least 2 x 2", columns, rows));
-    constexpr std::int64_t kMaxSide = terrain::kMaxPosts;
-    if (columns > kMaxSide || rows > kMaxSide ||
-        static_cast<std::uint64_t>(columns * rows) > terrain::kMaxGridPosts)
-        return absl::ResourceExhaustedError(fmt::format(
-            "{}: has {} x {} posts; the limits are {} posts a side and {} in all; import a part of "
-            "it (gdal_translate -srcwin) or fewer posts (-outsize)",
-            path, columns, rows, kMaxSide, terrain::kMaxGridPosts));
-    return absl::OkStatus();
-}
-
-/// Chooses what several rasters, or one in degrees, are brought to, and brings them there.
-class Mosaic {
-public:
-    Mosaic(std::vector<DemFile> files, QuietGdal& gdal)
-        : files_(std::move(files)), name_(nameOf(files_)), gdal_(gdal) {}
-
-    absl::StatusOr<DemSource> open() {
-        RETURN_IF_ERROR(check());
-        order_.resize(files_.size());
-        for (std::size_t k = 0; k < order_.size(); ++k) order_[k] = order_.size() - 1 - k;
-        std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
-            return pixelMetres(files_[a]) < pixelMetres(files_[b]) * (1 - kEquallyFine);
-        });
-        RETURN_IF_ERROR(chooseCrs());
-        RETURN_IF_ERROR(chooseGrid());
-        std::vector<Layer> layers;
-        for (std::size_t k = 0; k < order_.size();) {
-            std::vector<DemFile> run;
-            const bool isOne = isOnGrid(files_[order_[k]]);
-            do {
-                run.push_back(std::move(files_[order_[k++]]));
-            } while (!isOne && k < order_.size() && isNextOfRun(run, files_[order_[k]]));
-            ASSIGN_OR_RETURN(std::optional<Layer> layer, layerOf(std::move(run)));
-            if (layer)
-                layers.push_back(*std::move(layer));
-        }
-        return assembled(std::move(layers));
-    }
-
-private:
-    static constexpr double kEquallyFine = 0.01;
-
-    absl::Status check() {
-        for (const DemFile& file : files_) {
-            if (!file.isGeoreferenced)
-                return invalid(file.path,
-                               fmt::format("is not georeferenced, so it cannot be {}; give it a "
-                                           "georeference (gdal_edit.py)",
-                                           files_.size() > 1 ? "laid beside others"
-                                                             : "brought from degrees to metres"));
-            if ((file.crs == nullptr) != (files_.front().crs == nullptr))
-                return invalid(file.path,
-                               fmt::format("{} a CRS, unlike {}; set the right one (gdal_edit.py "
-                                           "-a_srs)",
-                                           file.crs ? "has" : "has not", files_.front().path));
-        }
-        noteVerticalDatums();
-        return absl::OkStatus();
-    }
-
-    void noteVerticalDatums() {
-        std::map<std::string, std::string> files;  // one of each datum
-        for (const DemFile& file : files_) {
-            const char* const datum =
-                file.crs ? OSRGetAttrValue(file.crs.get(), "VERT_DATUM", 0) : nullptr;
-            if (datum != nullptr)
-                files.emplace(datum, file.path);
-        }
-        if (files.size() < 2)
-            return;
-        std::vector<std::string> found;
-        for (const auto& [datum, path] : files)
-            found.push_back(fmt::format("'{}' ({})", datum, path));
-        notes_.push_back(
-            fmt::format("heights above {} are taken as they are; bring them to one "
-                        "vertical datum (gdalwarp) if their difference matters",
-                        fmt::join(found, " and ")));
-    }
-
-    absl::Status chooseCrs() {
-        const auto projected = std::find_if(
-            order_.begin(), order_.end(), [&](std::size_t k) { return !files_[k].isGeographic(); });
-        if (projected != order_.end()) {
-            if (const OGRSpatialReferenceH crs = files_[*projected].crs.get())
-                crs_.reset(OSRClone(crs));
-            return absl::OkStatus();
-        }
-        GeographicBox box{Vec2(std::numeric_limits<double>::infinity()),
-                          Vec2(-std::numeric_limits<double>::infinity())};
-        for (const DemFile& file : files_) {
-            const Vec2 reach =
-                (glm::abs(file.reference.perColumn * static_cast<double>(file.columns)) +
-                 glm::abs(file.reference.perRow * static_cast<double>(file.rows))) *
-                0.5;
-            // The same longitude may be called 180 here and -180 there: the way round is short.
-            Vec2 middle = centreOf(file);
-            middle.x -= 360 * std::round((middle.x - centreOf(files_.front()).x) / 360);
-            box.low = glm::min(box.low, middle - reach);
-            box.high = glm::max(box.high, middle + reach);
-        }
-        ASSIGN_OR_RETURN(LocalProjection local,
-                         localProjection(name_, files_.front().crs.get(), box));
-        crs_ = std::move(local.crs);
-        aroundTheEarth_ = local.aroundTheEarth;
-        caveat_ = std::move(local.caveat);
-        return absl::OkStatus();
-    }
-
-    /// The finest raster's grid, resampled if need be.
-    absl::Status chooseGrid() {
-        const DemFile& finest = files_[order_.front()];
-        wkt_ = crs_ ? wktOf(crs_.get()) : "";
-        if (isNorthUp(finest)) {
-            grid_ = gridOf(finest.reference);
-            return absl::OkStatus();
-        }
-        ASSIGN_OR_RETURN(const Suggested suggested, suggestedFor(finest));
-        grid_ = gridOf(suggested.reference);
-        return absl::OkStatus();
-    }
-
-    bool isNorthUp(const DemFile& file) const {
-        const Georeference& g = file.reference;
-        return isSameCrs(file.crs.get(), crs_.get()) && g.perColumn.y == 0 && g.perRow.x == 0 &&
-               g.perColumn.x > 0 && g.perRow.y < 0;
-    }
-
-    /// Where a raster comes to lie in the CRS, with posts as GDAL suggests them.
-    struct Suggested {
-        Georeference reference;
-        int columns;
-        int rows;
-    };
-
-    absl::StatusOr<Suggested> suggestedFor(const DemFile& file) {
-        const bool isAround = isAroundTheEarth(file.dataset.get());
-        std::optional<double> meridian;
-        if (isAround && aroundTheEarth_ > 0)
-            meridian = OSRGetNormProjParm(crs_.get(), SRS_PP_CENTRAL_MERIDIAN, 0, nullptr);
-        const Dataset outline = outlineOf(file.dataset.get(), meridian);
-        ASSIGN_OR_RETURN(const Dataset dataset, reprojected(outline.get(), file.path, wkt_, gdal_));
-        std::array<double, 6> t{};
-        GDALGetGeoTransform(dataset.get(), t.data());
-        Suggested suggested{{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}},
-                            GDALGetRasterXSize(dataset.get()),
-                            GDALGetRasterYSize(dataset.get())};
-        if (!isAround)
-            return suggested;
-        if (meridian) {
-            suggested.reference.origin.x = -aroundTheEarth_ / 2;
-            suggested.columns =
-                static_cast<int>(std::lround(aroundTheEarth_ / suggested.reference.perColumn.x));
-            suggested.reference.perColumn.x = aroundTheEarth_ / suggested.columns;
-        } else if (const double coarser = postsAtRim(file) / suggested.reference.perColumn.x;
-                   coarser > 1) {
-            // And for posts as many on the map's diagonal as on the raster's, which is unrolled.
-            suggested.reference.perColumn *= coarser;
-            suggested.reference.perRow *= coarser;
-            suggested.columns = std::max(2, static_cast<int>(suggested.columns / coarser));
-            suggested.rows = std::max(2, static_cast<int>(suggested.rows / coarser));
-        }
-        return suggested;
-    }
-
-    /// The smaller of a geographic raster's spacings where they are widest, in units of the CRS.
-    double postsAtRim(const DemFile& file) const {
-        const Georeference& g = file.reference;
-        const double last = g.origin.y + g.perRow.y * file.rows;
-        const double rim = glm::radians(std::min(std::abs(g.origin.y), std::abs(last)));
-        const double degree = glm::radians(OSRGetSemiMajor(crs_.get(), nullptr)) /
-                              OSRGetLinearUnits(crs_.get(), nullptr);
-        return degree * std::min(std::abs(g.perColumn.x) * std::cos(rim), std::abs(g.perRow.y));
-    }
-
-    static PixelGrid gridOf(const Georeference& g) {
-        return {g.origin.x, g.origin.y, g.perColumn.x, -g.perRow.y};
-    }
-
-    /// Pixels of the grid whose centres lie in a north-up raster.
-    absl::StatusOr<std::optional<PixelBox>> boxOf(const DemFile& file, const Georeference& g,
-                                                  int columns, int rows) const {
-        const double x0 = (g.origin.x - grid_.x) / grid_.width;
-        const double y0 = (grid_.y - g.origin.y) / grid_.height;
-        const double x1 = x0 + g.perColumn.x * columns / grid_.width;
-        const double y1 = y0 - g.perRow.y * rows / grid_.height;
-        constexpr double kFarthest = 1 << 29;  // from rim to rim an int
-        if (!(std::abs(x0) < kFarthest && std::abs(y0) < kFarthest && std::abs(x1) < kFarthest &&
-              std::abs(y1) < kFarthest))
-            return invalid(file.path, "lies too far from the other rasters for one grid");
-        constexpr double kSlack = 1e-6;
-        const auto first = [](double v) {
-            return static_cast<std::int64_t>(std::ceil(v - 0.5 - kSlack));
-        };
-        const auto end = [](double v) {
-            return static_cast<std::int64_t>(std::floor(v - 0.5 + kSlack)) + 1;
-        };
-        if (end(x1) <= first(x0) || end(y1) <= first(y0))
-            return std::nullopt;
-        return PixelBox{first(x0), first(y0), static_cast<int>(end(x1) - first(x0)),
-                        static_cast<int>(end(y1) - first(y0))};
-    }
-
-    /// Whether a raster's pixels are pixels of the grid.
-    bool isOnGrid(const DemFile& file) const {
-        if (!isNorthUp(file))
-            return false;
-        constexpr double kPixels = 1e-3;
-        const Georeference& g = file.reference;
-        const double x = (g.origin.x - grid_.x) / grid_.width;
-        const double y = (grid_.y - g.origin.y) / grid_.height;
-        return std::abs(g.perColumn.x / grid_.width - 1) * file.columns < kPixels &&
-               std::abs(-g.perRow.y / grid_.height - 1) * file.rows < kPixels &&
-               std::abs(x - std::round(x)) < kPixels && std::abs(y - std::round(y)) < kPixels;
-    }
-
-    /// Whether `next`, too, is resampled and lies on the grid of `run`. Only what follows in order
-    /// may join: whoever is between would else win or lose against the wrong ones.
-    bool isNextOfRun(const std::vector<DemFile>& run, const DemFile& next) const {
-        return !isOnGrid(next) && isOneGrid(run.front(), next);
-    }
-
-    /// Pixels of the grid that a raster covers, or nearly: its warper says which, to a pixel. Where
-    /// others may go on what it covers beyond a rounded extent is needed, too.
-    absl::StatusOr<std::optional<PixelBox>> placeOf(const DemFile& file) {
-        if (isNorthUp(file)) {
-            ASSIGN_OR_RETURN(const std::optional<PixelBox> box,
-                             boxOf(file, file.reference, file.columns, file.rows));
-            if (box)
-                addTo(extent_, *box);
-            return box;
-        }
-        ASSIGN_OR_RETURN(const Suggested suggested, suggestedFor(file));
-        ASSIGN_OR_RETURN(std::optional<PixelBox> box,
-                         boxOf(file, suggested.reference, suggested.columns, suggested.rows));
-        if (box)
-            addTo(extent_, *box);
-        if (box && order_.size() > 1)
-            box = PixelBox{box->column - 1, box->row - 1, box->columns + 2, box->rows + 2};
-        return box;
-    }
-
-    absl::StatusOr<std::optional<Layer>> layerOf(std::vector<DemFile> files) {
-        Layer layer;
-        std::optional<PixelBox> all;
-        for (DemFile& file : files) {
-            notes_.insert(notes_.end(), file.notes.begin(), file.notes.end());
-            ASSIGN_OR_RETURN(const std::optional<PixelBox> box, placeOf(file));
-            if (!box) {
-                notes_.push_back(fmt::format(
-                    "{} has no pixel as large as the finest raster's; it is left out", file.path));
-                continue;
-            }
-            addTo(all, *box);
-            layer.files.push_back(std::move(file));
-        }
-        if (!all)
-            return std::nullopt;
-        layer.box = *all;
-        if (isOnGrid(layer.files.front()))
-            return layer;
-        if (layer.files.size() > 1)
-            layer.joined = joined(layer.files);
-        ASSIGN_OR_RETURN(layer.warped, reprojected(layer.source(), nameOf(layer.files), wkt_, grid_,
-                                                   layer.box, gdal_));
-        for (const DemFile& file : layer.files)
-            notes_.push_back(fmt::format("{} resampled", file.path));
-        return layer;
-    }
-
-    absl::StatusOr<DemSource> assembled(std::vector<Layer> layers) {
-        const PixelBox all = extent_.value();
-        RETURN_IF_ERROR(checkSize(name_, all.columns, all.rows));
-        for (Layer& layer : layers) {
-            layer.box.column -= all.column;
-            layer.box.row -= all.row;
-        }
-        const double metres = crs_ ? OSRGetLinearUnits(crs_.get(), nullptr) : 1;
-        const Georeference reference{Vec2(grid_.x + grid_.width * static_cast<double>(all.column),
-                                          grid_.y - grid_.height * static_cast<double>(all.row)) *
-                                         metres,
-                                     Vec2(grid_.width, 0) * metres,
-                                     Vec2(0, -grid_.height) * metres};
-        notes_.push_back(fmt::format("brought to {}: {} x {} posts, {:.4g} m apart",
-                                     crs_ ? OSRGetName(crs_.get()) : "one grid", all.columns,
-                                     all.rows, reference.perColumn.x));
-        if (!caveat_.empty())
-            notes_.push_back(caveat_);
-        return DemSource{
-            std::make_unique<LayeredSource>(std::move(layers), reference, all.columns, all.rows),
-            crs_ ? metricWktOf(crs_.get()) : "", 0, std::move(notes_)};
-    }
-
-    std::vector<DemFile> files_;
-    std::string name_;  ///< for messages about all of them
-    QuietGdal& gdal_;
-    std::vector<std::size_t> order_;  ///< best first
-    SpatialReference crs_;
-    double aroundTheEarth_ = 0;  ///< LocalProjection::aroundTheEarth
-    std::string caveat_;         ///< of the CRS, for people
-    std::string wkt_;            ///< of `crs_`, in whose units `grid_` is
-    PixelGrid grid_;
-    std::optional<PixelBox> extent_;  ///< of all that have been placed
-    std::vector<std::string> notes_;
-};
 
 /// One raster on the grid it has.
 absl::StatusOr<DemSource> openAsItIs(DemFile file) {
@@ -490,10 +31,10 @@ absl::StatusOr<DemSource> openAsItIs(DemFile file) {
     }
     const int columns = file.columns;
     const int rows = file.rows;
-    std::vector<Layer> layers(1);
+    std::vector<DemLayer> layers(1);
     layers.front().box = {0, 0, columns, rows};
     layers.front().files.push_back(std::move(file));
-    source.posts = std::make_unique<LayeredSource>(std::move(layers), reference, columns, rows);
+    source.posts = layeredDems(std::move(layers), reference, columns, rows);
     return source;
 }
 
@@ -502,14 +43,14 @@ absl::StatusOr<DemSource> openAsItIs(DemFile file) {
 absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
                                    const ImportControl& control, const std::string& hashFolder) {
     QuietGdal gdal;
-    GDALSetCacheMax64(static_cast<GIntBig>(kCacheBytes));
+    GDALSetCacheMax64(static_cast<GIntBig>(kGdalCacheBytes));
     std::vector<DemFile> files;
     std::uint64_t hash = 0;
     for (const std::string& path : paths) {
         RETURN_IF_ERROR(control.check());
         control.report("checking",
                        static_cast<double>(files.size()) / static_cast<double>(paths.size()));
-        ASSIGN_OR_RETURN(DemFile file, openDemFile(path, gdal, hashFolder));
+        ASSIGN_OR_RETURN(DemFile file, openDemFile(path, gdal, hashFolder, control.stop));
         hash = files.empty() ? file.hash : hash * 0x9e3779b97f4a7c15 + file.hash;
         files.push_back(std::move(file));
     }
@@ -520,7 +61,7 @@ absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
     if (files.size() == 1)
         RETURN_IF_ERROR(checkSize(files.front().path, files.front().columns, files.front().rows));
     ASSIGN_OR_RETURN(DemSource source, isOne ? openAsItIs(std::move(files.front()))
-                                             : Mosaic(std::move(files), gdal).open());
+                                             : mosaicOf(std::move(files), gdal));
     source.hash = hash;
     return source;
 }

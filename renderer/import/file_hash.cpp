@@ -95,7 +95,7 @@ struct Hashed {
     std::uint64_t bytes = 0;  ///< fewer than the file's where it could not be read to its end
 };
 
-absl::StatusOr<Hashed> hashOfBytes(const std::string& path) {
+absl::StatusOr<Hashed> hashOfBytes(const std::string& path, const std::stop_token& stop) {
     const std::unique_ptr<VSILFILE, Releaser<VSIFCloseL>> file(VSIFOpenL(path.c_str(), "rb"));
     if (!file) {
         RETURN_IF_ERROR(checkOpenFiles(path));
@@ -106,6 +106,8 @@ absl::StatusOr<Hashed> hashOfBytes(const std::string& path) {
     std::vector<char> buffer(std::size_t{1} << 20);
     std::uint64_t bytes = 0;
     while (const std::size_t got = VSIFReadL(buffer.data(), 1, buffer.size(), file.get())) {
+        if (stop.stop_requested())
+            return absl::CancelledError("import cancelled");
         XXH64_update(state.get(), buffer.data(), got);
         bytes += got;
     }
@@ -114,22 +116,24 @@ absl::StatusOr<Hashed> hashOfBytes(const std::string& path) {
 
 }  // namespace
 
-absl::StatusOr<std::uint64_t> fileHash(const std::string& path, const std::string& folder) {
+absl::StatusOr<std::uint64_t> fileHash(const std::string& path, const std::string& folder,
+                                       const std::stop_token& stop) {
     const std::optional<FileState> before = folder.empty() ? std::nullopt : stateOf(path);
     if (before)
         if (const std::optional<std::uint64_t> hash = noted(*before, folder))
             return *hash;
     const bool shows = before && showsChanges(*before);
-    ASSIGN_OR_RETURN(const Hashed read, hashOfBytes(path));
+    ASSIGN_OR_RETURN(const Hashed read, hashOfBytes(path, stop));
     // Not of a file that was written meanwhile. Who cannot note it has it all the same.
     if (shows && read.bytes == before->bytes && stateOf(path) == before)
         leave(*before, folder, read.hash).IgnoreError();
     return read.hash;
 }
 
-void noteHash(const std::string& path, const std::string& folder) {
+void noteHash(const std::string& path, const std::string& folder, const std::stop_token& stop) {
     if (stateOf(path))
-        fileHash(path, folder).IgnoreError();  // what is wrong with it is found when it is opened
+        fileHash(path, folder, stop)
+            .IgnoreError();  // what is wrong with it is found when it is opened
 }
 
 void removeNotedHashes(const std::string& folder) {

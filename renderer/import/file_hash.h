@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <string>
 
 #include <absl/status/statusor.h>
@@ -13,11 +14,14 @@ namespace eyrie::import {
 
 /// Of a file by any name that GDAL opens. With a `folder`, unless that is empty, from what is noted
 /// there; else it reads all bytes and, of a large file, notes the hash there if it can. Any number
-/// of threads and processes at once. Errors: NotFound, those of checkOpenFiles.
-absl::StatusOr<std::uint64_t> fileHash(const std::string& path, const std::string& folder);
+/// of threads and processes at once. Errors: NotFound, those of checkOpenFiles; Cancelled, between
+/// two megabytes.
+absl::StatusOr<std::uint64_t> fileHash(const std::string& path, const std::string& folder,
+                                       const std::stop_token& stop = {});
 
-/// Sees to it that the hash of a large file is noted in a folder, where it can be. No others are.
-void noteHash(const std::string& path, const std::string& folder);
+/// Sees to it that the hash of a large file is noted in a folder, where it can be and is not called
+/// off. No others are.
+void noteHash(const std::string& path, const std::string& folder, const std::stop_token& stop = {});
 
 /// Removes all that is noted in a folder.
 void removeNotedHashes(const std::string& folder);

@@ -11,17 +11,39 @@
 #include <ogr_spatialref.h>
 
 namespace eyrie::import {
+namespace {
+
+struct Setting {
+    const char* name;
+    const char* value;
+};
+/// Without the last three GDAL waits for a server that has stopped to answer for ever.
+constexpr std::array kSettings = {
+    Setting{"CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO"},
+    Setting{"GDAL_HTTP_CONNECTTIMEOUT", "10"},
+    Setting{"GDAL_HTTP_LOW_SPEED_TIME", "20"},
+    Setting{"GDAL_HTTP_LOW_SPEED_LIMIT", "100"},
+};
+
+}  // namespace
 
 QuietGdal::QuietGdal() {
     static std::once_flag registered;
     std::call_once(registered, GDALAllRegister);
     CPLPushErrorHandlerEx(&QuietGdal::note, this);
-    CPLSetThreadLocalConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
+    static_assert(kSettings.size() == std::tuple_size_v<decltype(isSet_)>);
+    for (std::size_t k = 0; k < kSettings.size(); ++k)
+        if (CPLGetConfigOption(kSettings[k].name, nullptr) == nullptr) {
+            CPLSetThreadLocalConfigOption(kSettings[k].name, kSettings[k].value);
+            isSet_[k] = true;
+        }
     CPLErrorReset();
 }
 
 QuietGdal::~QuietGdal() {
-    CPLSetThreadLocalConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", nullptr);
+    for (std::size_t k = 0; k < kSettings.size(); ++k)
+        if (isSet_[k])
+            CPLSetThreadLocalConfigOption(kSettings[k].name, nullptr);
     CPLPopErrorHandler();
 }
 

@@ -29,7 +29,9 @@ using Dataset = std::unique_ptr<void, Releaser<GDALClose>>;
 using SpatialReference = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>,
                                          Releaser<OSRDestroySpatialReference>>;
 
-/// Keeps what GDAL would print, while it lives, on this thread; no sidecar files are written.
+/// While it lives, on this thread, keeps what GDAL would print, has no sidecar files written, and
+/// gives up servers that send nothing for 20 seconds. What the user has set stays as it is
+/// (GDAL_HTTP_CONNECTTIMEOUT, GDAL_HTTP_LOW_SPEED_TIME and _LIMIT, from the environment).
 class QuietGdal {
 public:
     QuietGdal();
@@ -44,6 +46,7 @@ private:
     static void CPL_STDCALL note(CPLErr severity, CPLErrorNum, const char* message);
 
     std::string error_;
+    std::array<bool, 4> isSet_{};  ///< by this one, of what it sets
 };
 
 /// Pixel to projected metres: (x, y) = origin + column * perColumn + row * perRow, from the outer

@@ -154,11 +154,16 @@ std::vector<fabric::Rgba> halved(const Tile& tile, const terrain::TexturePyramid
     return half;
 }
 
-/// Turns a tile's texels into what is made of them.
+/// Turns a tile's texels into what is made of them. Of small pictures over a large terrain nearly
+/// all tiles are empty.
 void finish(Tile& tile, const terrain::TexturePyramid& pyramid) {
+    constexpr fabric::Rgba kHole{0, 0, 0, 0};
+    const bool isEmpty = std::ranges::count(tile.texels, kHole) == std::ssize(tile.texels);
     if (tile.id != pyramid.top())
-        tile.made.half = halved(tile, pyramid);
-    TileEncoder(tile, pyramid).encode();
+        tile.made.half = isEmpty ? std::vector(OwnTexels(tile, pyramid).halfTexels(), kHole)
+                                 : halved(tile, pyramid);
+    if (!isEmpty)
+        TileEncoder(tile, pyramid).encode();
     tile.texels = {};
 }
 

@@ -14,6 +14,7 @@
 #include "fabric/status.h"
 #include "renderer/import/colour_file.h"
 #include "renderer/import/colour_warp.h"
+#include "renderer/import/raster_file.h"
 
 namespace eyrie::import {
 namespace {
@@ -34,9 +35,14 @@ struct Layer {
 
 class LayeredImagery : public ImagerySource {
 public:
-    /// Best layer first.
-    LayeredImagery(std::vector<Layer> layers, const TexturePyramid& pyramid, bool isLastRowFirst)
-        : layers_(std::move(layers)), pyramid_(pyramid), isLastRowFirst_(isLastRowFirst) {}
+    /// Best layer first, over `frame`.
+    LayeredImagery(std::vector<Layer> layers, const TexturePyramid& pyramid,
+                   const terrain::GridFrame& frame)
+        : layers_(std::move(layers)),
+          pyramid_(pyramid),
+          isLastRowFirst_(frame.perRow.y > 0),
+          seenColumns_(middlesWithin(frame.columns, pyramid)),
+          seenRows_(middlesWithin(frame.rows, pyramid)) {}
 
     const TexturePyramid& pyramid() const override { return pyramid_; }
     bool isLastRowFirst() const override { return isLastRowFirst_; }
@@ -51,11 +57,17 @@ public:
             if (part.columns > 0 && part.rows > 0)
                 RETURN_IF_ERROR(add(layer, part, window, out.data()));
         }
+        coverRim(inside, window, out.data());
         repeatBorder(inside, window, out.data());
         return absl::OkStatus();
     }
 
 private:
+    /// Texels over so many posts whose middle lies before the last of them.
+    static std::int64_t middlesWithin(std::int32_t posts, const TexturePyramid& pyramid) {
+        return std::llround(std::ceil((posts - 1) / pyramid.texelPosts(0) - 0.5));
+    }
+
     static TexelRect intersection(const TexelRect& a, const TexelRect& b) {
         const std::int64_t x = std::max(a.x, b.x);
         const std::int64_t y = std::max(a.y, b.y);
@@ -77,9 +89,9 @@ private:
                                 static_cast<int>(part.y - layer.box.y), part.columns, part.rows,
                                 buffer_.data(), part.columns, part.rows, GDT_Byte, kBands, nullptr,
                                 kBands, kBands * part.columns, 1) != CE_None)
-            return absl::DataLossError(
-                fmt::format("{}: its pixels cannot be read ({}); the file may be truncated",
-                            layer.file.path, gdal.takeError()));
+            return absl::DataLossError(fmt::format("{}: its pixels cannot be read ({}); {}",
+                                                   layer.file.path, gdal.takeError(),
+                                                   whyUnreadable(layer.file.path)));
         const fabric::Rgba* from = buffer_.data();
         for (std::int32_t v = 0; v < part.rows; ++v) {
             fabric::Rgba* to = out + (part.y + v - window.y) * window.columns + (part.x - window.x);
@@ -88,6 +100,24 @@ private:
                     *to = *from;
         }
         return absl::OkStatus();
+    }
+
+    /// The last texels' middles may lie beyond the last posts, where a picture of all of the
+    /// terrain need not reach: these are what is beside them.
+    void coverRim(const TexelRect& inside, const TexelRect& window, fabric::Rgba* out) const {
+        const auto at = [&](std::int64_t x, std::int64_t y) -> fabric::Rgba& {
+            return out[(y - window.y) * window.columns + (x - window.x)];
+        };
+        const auto cover = [](fabric::Rgba& texel, const fabric::Rgba& beside) {
+            if (texel.a < 128)
+                texel = beside;
+        };
+        const std::int64_t endX = inside.x + inside.columns;
+        const std::int64_t endY = inside.y + inside.rows;
+        if (endX > seenColumns_ && inside.x < seenColumns_)
+            for (std::int64_t y = inside.y; y < endY; ++y) cover(at(endX - 1, y), at(endX - 2, y));
+        if (endY > seenRows_ && inside.y < seenRows_)
+            for (std::int64_t x = inside.x; x < endX; ++x) cover(at(x, endY - 1), at(x, endY - 2));
     }
 
     /// Precondition: `inside` is not empty.
@@ -110,7 +140,9 @@ private:
 
     std::vector<Layer> layers_;
     TexturePyramid pyramid_;
-    bool isLastRowFirst_;
+    bool isLastRowFirst_;       ///< pictures begin in the north; so do rows that go towards lower y
+    std::int64_t seenColumns_;  ///< whose middles lie within the terrain: all, or all but the last
+    std::int64_t seenRows_;
     std::vector<fabric::Rgba> buffer_;
 };
 
@@ -163,7 +195,7 @@ public:
             return a.place.pixelPosts < b.place.pixelPosts * (1 - kEquallyFine);
         });
         const double octaves = -std::log2(layers_.front().place.pixelPosts) - kOctavesOfSlack;
-        const int shift = std::max(static_cast<int>(std::ceil(octaves)), terrain::kMinTexelShift);
+        const int shift = std::max(static_cast<int>(std::ceil(octaves)), coarsestShift());
         if (!TexturePyramid::isPossible(grid_.frame.columns, grid_.frame.rows, shift))
             return absl::ResourceExhaustedError(fmt::format(
                 "{}: its pixels are {:.3g} of a post, too fine for {} x {} posts (at most {} "
@@ -179,14 +211,18 @@ public:
         }
         notes_.push_back(fmt::format("imagery of {} x {} texels, 2^{} a post", pyramid.width(0),
                                      pyramid.height(0), shift));
-        // Pictures begin in the north; so do the terrain's rows where they go towards lower y.
-        const bool isLastRowFirst = grid_.frame.perRow.y > 0;
         return OpenImagery{
-            std::make_unique<LayeredImagery>(std::move(layers_), pyramid, isLastRowFirst),
+            std::make_unique<LayeredImagery>(std::move(layers_), pyramid, grid_.frame),
             std::move(notes_)};
     }
 
 private:
+    /// Of texels no larger than the terrain, so that one has its middle there.
+    int coarsestShift() const {
+        const int cells = std::min(grid_.frame.columns, grid_.frame.rows) - 1;
+        return std::max(terrain::kMinTexelShift, -static_cast<int>(std::log2(cells)));
+    }
+
     /// The texels that a picture may cover.
     static TexelRect boxOf(const ColourPlace& place, const TexturePyramid& pyramid) {
         const double texels = std::exp2(pyramid.texelShift());

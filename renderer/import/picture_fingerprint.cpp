@@ -11,6 +11,7 @@
 #include "renderer/import/gdal_handles.h"
 #include "renderer/import/raster_file.h"
 #include "renderer/import/raster_name.h"
+#include "renderer/page/remote_name.h"
 
 namespace eyrie::import {
 namespace {
@@ -55,7 +56,8 @@ std::string stampOf(const std::string& file) {
 std::uint64_t pictureFingerprint(const std::vector<std::string>& paths) {
     const QuietGdal quiet;
     std::uint64_t all = 0;
-    for (const std::string& path : paths) all = all * 0x9e3779b97f4a7c15 + fingerprintOf(path);
+    for (const std::string& path : paths)
+        all = all * 0x9e3779b97f4a7c15 + fingerprintOf(page::gdalName(path));
     return all;
 }
 
@@ -63,8 +65,9 @@ std::uint64_t pictureStamp(const std::vector<std::string>& paths) {
     const QuietGdal quiet;
     std::string all;
     for (const std::string& path : paths) {
-        all += stampOf(path);
-        if (const Dataset dataset(GDALOpen(path.c_str(), GA_ReadOnly)); dataset)
+        const std::string name = page::gdalName(path);
+        all += stampOf(name);
+        if (const Dataset dataset(GDALOpen(name.c_str(), GA_ReadOnly)); dataset)
             for (const std::string& file : allFilesOf(dataset.get())) all += stampOf(file);
     }
     return XXH64(all.data(), all.size(), 0);

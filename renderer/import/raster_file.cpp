@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "fabric/status.h"
+#include "renderer/page/remote_name.h"
 
 namespace eyrie::import {
 namespace {
@@ -40,10 +41,22 @@ std::string rasterInside(const std::string& path) {
     return "";
 }
 
+/// Whether there are bytes under this name, here or at an address.
+bool hasBytes(const std::string& path) {
+    VSIStatBufL status;
+    return VSIStatL(page::gdalName(path).c_str(), &status) == 0;
+}
+
+Dataset opened(const std::string& name) {
+    return Dataset(GDALOpenEx(name.c_str(),
+                              GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
+                              nullptr, nullptr));
+}
+
 absl::Status cannotBeOpened(const std::string& path, const char* wanted, QuietGdal& gdal) {
     RETURN_IF_ERROR(checkOpenFiles(path));
     const std::string error = gdal.takeError();
-    if (VSIStatBufL status; VSIStatL(path.c_str(), &status) != 0)
+    if (!hasBytes(path))
         return absl::NotFoundError(
             fmt::format("{}: no such file, or not readable ({})", path, error));
     if (const std::string inside = rasterInside(path); !inside.empty())
@@ -59,18 +72,21 @@ absl::Status cannotBeOpened(const std::string& path, const char* wanted, QuietGd
 std::string gdalPath(const std::string& path) {
     if (path.starts_with("/vsi"))
         return path;
+    const std::string name = page::gdalName(path);
     if (path.ends_with(".gz"))
-        return "/vsigzip/" + path;
+        return "/vsigzip/" + name;
     if (path.ends_with(".zip"))
-        return "/vsizip/" + path;
-    return path;
+        return "/vsizip/" + name;
+    return name;
 }
 
 absl::StatusOr<Dataset> openRaster(const std::string& path, const char* wanted, QuietGdal& gdal) {
     allowManyOpenFiles();
-    Dataset dataset(GDALOpenEx(gdalPath(path).c_str(),
-                               GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
-                               nullptr, nullptr));
+    Dataset dataset = opened(gdalPath(path));
+    // By its plain address GDAL loads all of a file into memory, which serves where a server sends
+    // no parts.
+    if (!dataset && page::gdalName(path) != path && hasBytes(path))
+        dataset = opened(path);
     if (!dataset)
         return cannotBeOpened(path, wanted, gdal);
     if (GDALGetRasterCount(dataset.get()) < 1) {
@@ -119,6 +135,12 @@ absl::Status checkOpenFiles(const std::string& path) {
         fmt::format("{}: cannot be opened beside what this process has open, at most {} files; "
                     "allow more (ulimit -n), or make one raster of several first (gdalbuildvrt)",
                     path, limit.rlim_cur));
+}
+
+std::string whyUnreadable(const std::string& path) {
+    return page::isRemote(path) ? "its server may have failed; look at that and the network, then "
+                                  "run the same command again"
+                                : "the file may be truncated";
 }
 
 std::vector<std::string> filesOf(GDALDatasetH raster) {

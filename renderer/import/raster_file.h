@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@
 
 namespace eyrie::import {
 
-/// The name under which GDAL looks into a .gz or .zip.
+/// The name under which GDAL reads a file at an address part by part, and looks into a .gz or .zip.
 std::string gdalPath(const std::string& path);
 
 /// A raster by any name that GDAL knows, see raster_name.h. So that a mosaic may have thousands, it
@@ -28,6 +29,9 @@ absl::Status checkPlace(const std::string& path, GDALDatasetH raster);
 /// when something could not be opened.
 absl::Status checkOpenFiles(const std::string& path);
 
+/// Why a raster that could be opened may not be readable, for messages.
+std::string whyUnreadable(const std::string& path);
+
 /// Files that a raster consists of, as GDAL names them.
 std::vector<std::string> filesOf(GDALDatasetH raster);
 /// And, as GDAL names only the files that a virtual raster has itself, of virtual ones among them.
@@ -37,6 +41,7 @@ std::vector<std::string> allFilesOf(GDALDatasetH raster);
 /// As in raster_hash.h, of a raster that is open: by `path`. Its files' hashes are shared in
 /// `hashFolder`, as fileHash says; empty: not at all.
 absl::StatusOr<std::uint64_t> rasterHash(const std::string& path, GDALDatasetH raster,
-                                         const std::string& hashFolder);
+                                         const std::string& hashFolder,
+                                         const std::stop_token& stop);
 
 }  // namespace eyrie::import

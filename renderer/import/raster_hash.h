@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <string>
 
 #include <absl/status/statusor.h>
@@ -10,7 +11,8 @@ namespace eyrie::import {
 
 /// XXH64 of the bytes of all files of a raster by any name that GDAL knows (raster_name.h): of that
 /// named, of those beside it, and of those that a virtual raster names, itself or through others.
-/// Where they lie does not count. Errors: those of openRaster; NotFound (the file that is named).
-absl::StatusOr<std::uint64_t> rasterHash(const std::string& path);
+/// Where they lie does not count. Errors: those of openRaster; NotFound (the file that is named);
+/// Cancelled.
+absl::StatusOr<std::uint64_t> rasterHash(const std::string& path, const std::stop_token& stop = {});
 
 }  // namespace eyrie::import

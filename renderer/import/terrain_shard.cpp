@@ -198,7 +198,7 @@ absl::Status noteHashes(const std::vector<std::string>& dems, const Shard& shard
     for (std::size_t k = 0; k < dems.size(); ++k) {
         RETURN_IF_ERROR(control.check());
         control.report("checking", static_cast<double>(k) / static_cast<double>(dems.size()));
-        noteHash(dems[(first + k) % dems.size()], folder);
+        noteHash(dems[(first + k) % dems.size()], folder, control.stop);
     }
     return absl::OkStatus();
 }

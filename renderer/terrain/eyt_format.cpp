@@ -90,22 +90,43 @@ std::uint64_t mostIndexBytes(const Quadtree& quadtree) {
            (std::uint64_t{quadtree.pageCount()} + kTextures) * sizeof(PageRecord);
 }
 
-/// CRS, tiles and pages out of the index's bytes.
-absl::Status parseIndex(const FileHeader& header, const std::vector<char>& bytes,
-                        const std::string& path, EytIndex& index) {
-    const std::uint64_t tilesOffset = roundUp(header.crsBytes, 8);
-    const std::uint64_t tilesBytes = std::uint64_t{index.quadtree.tileCount()} * sizeof(TileRecord);
-    const std::uint64_t pagesOffset = roundUp(tilesOffset + tilesBytes, 8);
-    const std::uint64_t pagesBytes = std::uint64_t{index.quadtree.pageCount()} * sizeof(PageRecord);
-    const std::uint64_t pagesEnd = pagesOffset + pagesBytes;
-    if (header.crsBytes > kMaxCrsBytes || pagesEnd > bytes.size())
+/// Where what lies in an index. Only its imagery may not be there.
+struct IndexPlaces {
+    IndexPlaces(const FileHeader& header, const Quadtree& quadtree)
+        : tilesOffset(roundUp(header.crsBytes, 8)),
+          tilesBytes(std::uint64_t{quadtree.tileCount()} * sizeof(TileRecord)),
+          pagesOffset(roundUp(tilesOffset + tilesBytes, 8)),
+          pagesBytes(std::uint64_t{quadtree.pageCount()} * sizeof(PageRecord)),
+          pagesEnd(pagesOffset + pagesBytes) {}
+
+    std::uint64_t tilesOffset;
+    std::uint64_t tilesBytes;
+    std::uint64_t pagesOffset;
+    std::uint64_t pagesBytes;
+    std::uint64_t pagesEnd;
+};
+
+absl::Status checkIndexBytes(const FileHeader& header, const IndexPlaces& places,
+                             const Quadtree& quadtree, const std::string& path) {
+    if (header.indexBytes > mostIndexBytes(quadtree))
+        return corrupt(path, fmt::format("header.indexBytes is {}, expected {} at most for {} x {} "
+                                         "posts",
+                                         header.indexBytes, mostIndexBytes(quadtree),
+                                         header.columns, header.rows));
+    if (header.crsBytes > kMaxCrsBytes || places.pagesEnd > header.indexBytes)
         return corrupt(path, fmt::format("header.indexBytes is {}, expected {} at least",
-                                         bytes.size(), pagesEnd));
+                                         header.indexBytes, places.pagesEnd));
+    return absl::OkStatus();
+}
+
+/// CRS, tiles and pages out of the index's bytes.
+absl::Status parseIndex(const FileHeader& header, const IndexPlaces& places,
+                        const std::vector<char>& bytes, const std::string& path, EytIndex& index) {
     index.crsWkt.assign(bytes.data(), header.crsBytes);
     index.tiles.resize(index.quadtree.tileCount());
-    std::memcpy(index.tiles.data(), bytes.data() + tilesOffset, tilesBytes);
+    std::memcpy(index.tiles.data(), bytes.data() + places.tilesOffset, places.tilesBytes);
     index.pages.resize(index.quadtree.pageCount());
-    std::memcpy(index.pages.data(), bytes.data() + pagesOffset, pagesBytes);
+    std::memcpy(index.pages.data(), bytes.data() + places.pagesOffset, places.pagesBytes);
 
     for (std::size_t k = 0; k < index.tiles.size(); ++k)
         RETURN_IF_ERROR(checkTile(index.tiles[k], path, k));
@@ -118,9 +139,9 @@ absl::Status parseIndex(const FileHeader& header, const std::vector<char>& bytes
             return corrupt(path, fmt::format("page {}: {} bytes at {} do not lie among the pages",
                                              k, page.bytes, page.offset));
     }
-    if (pagesEnd == bytes.size())
+    if (places.pagesEnd == bytes.size())
         return absl::OkStatus();
-    const auto rest = std::as_bytes(std::span(bytes)).subspan(pagesEnd);
+    const auto rest = std::as_bytes(std::span(bytes)).subspan(places.pagesEnd);
     ASSIGN_OR_RETURN(index.imagery, imageryFrom(rest, index.quadtree, header.indexOffset, path));
     return absl::OkStatus();
 }
@@ -241,7 +262,8 @@ std::uint64_t EytIndex::triangles() const {
 }
 
 absl::StatusOr<std::shared_ptr<const EytFile>> EytFile::open(const std::string& path,
-                                                             const page::SourceOptions& options) {
+                                                             const page::SourceOptions& options,
+                                                             std::uint64_t mostMemoryBytes) {
     FileHeader header;
     ASSIGN_OR_RETURN(std::unique_ptr<page::PageSource> source,
                      page::PageSource::open(path, sizeof header, options));
@@ -263,16 +285,19 @@ absl::StatusOr<std::shared_ptr<const EytFile>> EytFile::open(const std::string& 
     index.objectFromLattice = matrixOf(header);
     index.sourceHash = header.sourceHash;
     index.nodataPosts = header.nodataPosts;
-    if (header.indexBytes > mostIndexBytes(index.quadtree))
-        return corrupt(path, fmt::format("header.indexBytes is {}, expected {} at most for {} x {} "
-                                         "posts",
-                                         header.indexBytes, mostIndexBytes(index.quadtree),
-                                         header.columns, header.rows));
+    const IndexPlaces places(header, index.quadtree);
+    RETURN_IF_ERROR(checkIndexBytes(header, places, index.quadtree, path));
+    file->indexMemoryBytes_ =
+        places.tilesBytes + places.pagesBytes + recordBytes(header.indexBytes - places.pagesEnd);
+    if (file->indexMemoryBytes_ > mostMemoryBytes)
+        return absl::ResourceExhaustedError(
+            fmt::format("{}: its index takes {} bytes of memory, {} are left", path,
+                        file->indexMemoryBytes_, mostMemoryBytes));
     std::vector<char> bytes(header.indexBytes);
     RETURN_IF_ERROR(
         file->source_->read({header.indexOffset, header.indexBytes, header.indexChecksum},
                             std::as_writable_bytes(std::span(bytes)), "the index"));
-    RETURN_IF_ERROR(parseIndex(header, bytes, path, index));
+    RETURN_IF_ERROR(parseIndex(header, places, bytes, path, index));
     return file;
 }
 

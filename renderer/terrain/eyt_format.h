@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -196,9 +197,11 @@ class EytFile {
 public:
     /// Reads and checks header and index. `path` may be an address (page/remote_name.h). Errors:
     /// NotFound, InvalidArgument (not an .eyt, or a newer version), DataLoss (truncated, or a
-    /// checksum fails); of an address PermissionDenied and Unavailable, too.
+    /// checksum fails); ResourceExhausted, before the index is read, where that would take more
+    /// than `mostMemoryBytes`; of an address PermissionDenied and Unavailable, too.
     static absl::StatusOr<std::shared_ptr<const EytFile>> open(
-        const std::string& path, const page::SourceOptions& options = {});
+        const std::string& path, const page::SourceOptions& options = {},
+        std::uint64_t mostMemoryBytes = std::numeric_limits<std::uint64_t>::max());
 
     EytFile(const EytFile&) = delete;
     EytFile& operator=(const EytFile&) = delete;
@@ -206,6 +209,8 @@ public:
     const EytIndex& index() const { return index_; }
     const std::string& path() const { return source_->name(); }
     std::uint64_t sizeBytes() const { return source_->sizeBytes(); }
+    /// What the index takes in memory, but for its CRS.
+    std::uint64_t indexMemoryBytes() const { return indexMemoryBytes_; }
     /// Of the header, which holds the index's, which holds the pages': of all of the file.
     std::uint64_t checksum() const { return checksum_; }
 
@@ -228,6 +233,7 @@ private:
 
     std::unique_ptr<page::PageSource> source_;
     std::uint64_t checksum_ = 0;
+    std::uint64_t indexMemoryBytes_ = 0;
     EytIndex index_;
 };
 

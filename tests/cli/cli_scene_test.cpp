@@ -162,6 +162,18 @@ TEST_F(SceneFiles, PathsStartAtTheSceneFilesFolder) {
     EXPECT_EQ(assembled->background, (fabric::Rgba{255, 0, 0, 255}));
 }
 
+TEST_F(SceneFiles, WhatLiesAtAnAddressIsNotLookedForInTheirFolder) {
+    const std::string scene =
+        folder_.write("a.json", R"({"objects":[{"terrain":"https://a.example/dem.tif",)"
+                                R"("imagery":["https://a.example/ground.tif","ground.tif"]}]})");
+    const auto read = readSceneFile(scene);
+    ASSERT_TRUE(read.ok()) << read.status();
+    EXPECT_EQ(read->objects.front().path, "https://a.example/dem.tif");
+    EXPECT_EQ(
+        read->objects.front().imagery,
+        (std::vector<std::string>{"https://a.example/ground.tif", folder_.path("ground.tif")}));
+}
+
 /// A picture of one colour without a place, which is stretched over the terrain.
 void writePixels(const std::string& path, char level) {
     std::ofstream(path, std::ios::binary) << "P6 2 2 255\n" << std::string(12, level);

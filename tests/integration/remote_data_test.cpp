@@ -119,6 +119,28 @@ TEST_F(RemoteData, AreDescribedAsLocalOnes) {
     }
 }
 
+TEST_F(RemoteData, ThatAreElevationModelsAreImportedAsLocalOnes) {
+    const auto imported = [&](const std::string& dem) {
+        const std::string out = folder_.path("imported.eyt");
+        const test::Outcome outcome =
+            test::eyrie({"import", "terrain", dem, "-o", out, "--memory", "192M"});
+        EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors;
+        return textOf(out);
+    };
+    const std::string expected = imported(local("dem.tif"));
+    EXPECT_TRUE(imported(url("dem.tif")) == expected) << "and known by what it holds";
+    const test::Outcome none =
+        test::eyrie({"import", "terrain", url("none.tif"), "-o", folder_.path("none.eyt")});
+    EXPECT_EQ(none.exit, (test::Exit{2, 0}));
+    EXPECT_NE(none.errors.find("none.tif: no such file, or not readable (HTTP response code: 404)"),
+              std::string::npos)
+        << none.errors;
+    const test::Outcome other =
+        test::eyrie({"import", "terrain", url("dem.eyt"), "-o", folder_.path("none.eyt")});
+    EXPECT_EQ(other.exit, (test::Exit{2, 0}));
+    EXPECT_NE(other.errors.find("is no raster that GDAL"), std::string::npos) << other.errors;
+}
+
 TEST_F(RemoteData, ThatAreNotThereAreRefusedByName) {
     const test::Outcome none = eyrie({"info", url("none.eyt")});
     EXPECT_EQ(none.exit, (test::Exit{2, 0}));

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/support/nginx.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -63,6 +64,17 @@ TEST_F(TerrainImportProcess, StaysWithinItsMemory) {
     ASSERT_GT(peak, 0);
     EXPECT_LE(peak, std::int64_t{192} << 20);
     EXPECT_FALSE(std::filesystem::exists(folder_.path("dem.eyt.scratch")));
+}
+
+TEST_F(TerrainImportProcess, HoldsNoWholeFileOfAUrl) {
+    synthesize(6000);  // 144 MB
+    const test::Nginx nginx(folder_.path());
+    Words arguments = importInto("dem.eyt", "192M");
+    arguments[2] = nginx.url("dem.tif");
+    arguments.emplace_back("--quiet");
+    const std::int64_t peak = peakBytes(test::eyrieCommand(arguments));
+    ASSERT_GT(peak, 0);
+    EXPECT_LE(peak, std::int64_t{192 + 32} << 20) << "32M: libcurl and what GDAL keeps of URLs";
 }
 
 TEST_F(TerrainImportProcess, StaysWithinItsMemorySharded) {

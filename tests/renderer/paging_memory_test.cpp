@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "renderer/renderer.h"
 #include "renderer/terrain/eyt_format.h"
 #include "tests/renderer/paging_fixture.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eyrie {
 namespace {
@@ -76,6 +79,31 @@ TEST_F(Paging, TooLittleMemoryForAnIndexKeepsTheSceneFromOpeningAndSaysSo) {
     EXPECT_TRUE(absl::IsResourceExhausted(status));
     EXPECT_NE(status.message().find("indices"), std::string::npos) << status;
     EXPECT_NE(status.message().find("--host-memory"), std::string::npos) << status;
+}
+
+TEST_F(Paging, AnIndexThatTakesTooMuchIsNotReadFirst) {
+    const std::uint64_t bytes = file_->indexMemoryBytes();
+    EXPECT_EQ(bytes, open(scene_.objects[0].path)->memory().hostBytes);
+    const test::TemporaryFolder folder;
+    const std::string damaged = folder.path("damaged.eyt");
+    std::filesystem::copy_file(scene_.objects[0].path, damaged);
+    std::fstream(damaged, std::ios::binary | std::ios::in | std::ios::out).seekp(-1, std::ios::end)
+        << '!';
+    EXPECT_TRUE(absl::IsResourceExhausted(terrain::EytFile::open(damaged, {}, bytes - 1).status()));
+    EXPECT_TRUE(absl::IsDataLoss(terrain::EytFile::open(damaged, {}, bytes).status()));
+    EXPECT_TRUE(terrain::EytFile::open(scene_.objects[0].path, {}, bytes).ok());
+}
+
+TEST_F(Paging, IndicesOfAllTerrainsCountTogether) {
+    RendererOptions options;
+    options.hostMemoryBytes = 2 * file_->indexMemoryBytes() - 1;
+    auto renderer = Renderer::create(options);
+    ASSERT_TRUE(renderer.ok());
+    fabric::Scene two = scene_;
+    two.objects.push_back(two.objects[0]);
+    const absl::Status status = (*renderer)->openScene(two).status();
+    EXPECT_TRUE(absl::IsResourceExhausted(status)) << status;
+    EXPECT_NE(status.message().find("its index takes"), std::string::npos) << status;
 }
 
 class LittleMemory : public Paging, public testing::WithParamInterface<bool> {

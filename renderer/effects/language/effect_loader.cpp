@@ -20,7 +20,11 @@ absl::StatusOr<EffectFile> loadFile(std::string_view name, const ReadEffectFile&
         return absl::InvalidArgumentError(fmt::format(
             "{}: an effect file is called lower_case.effect or lower_case.block", name));
     ASSIGN_OR_RETURN(const std::string text, read(name));
-    return parseEffectFile(text, name);
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors begin files so
+    std::string_view words = text;
+    if (words.starts_with(kByteOrderMark))
+        words.remove_prefix(kByteOrderMark.size());
+    return parseEffectFile(words, name);
 }
 
 absl::Status checkInclude(const Include& include, std::set<std::string>& seen) {

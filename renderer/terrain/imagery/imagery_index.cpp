@@ -51,6 +51,10 @@ std::vector<std::byte> bytesOf(const ImageryIndex& imagery) {
     return bytes;
 }
 
+std::uint64_t recordBytes(std::uint64_t imageryBytes) {
+    return imageryBytes < sizeof(ImageryHeader) ? 0 : imageryBytes - sizeof(ImageryHeader);
+}
+
 absl::StatusOr<ImageryIndex> imageryFrom(std::span<const std::byte> bytes, const Quadtree& quadtree,
                                          std::uint64_t pagesEnd, const std::string& name) {
     ImageryHeader header;

@@ -45,6 +45,9 @@ ImagerySummary summaryOf(const ImageryIndex& imagery);
 /// The bytes at the end of an .eyt's index: an ImageryHeader and a PageRecord for every tile.
 std::vector<std::byte> bytesOf(const ImageryIndex& imagery);
 
+/// What the records of so many bytes of bytesOf take in memory.
+std::uint64_t recordBytes(std::uint64_t imageryBytes);
+
 /// What bytesOf wrote. `pagesEnd` is the byte of the file that all pages lie before.
 /// Errors: DataLoss. `name` is used in messages only.
 absl::StatusOr<ImageryIndex> imageryFrom(std::span<const std::byte> bytes, const Quadtree& quadtree,

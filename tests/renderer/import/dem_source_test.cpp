@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include <cpl_conv.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -68,6 +69,23 @@ protected:
 
     TemporaryFolder folder_;
 };
+
+TEST_F(DemSource, IsGivenUpWhenItsServerStopsUnlessTheUserSaysOtherwise) {
+    const auto patience = [] { return CPLGetConfigOption("GDAL_HTTP_LOW_SPEED_TIME", nullptr); };
+    {
+        const QuietGdal outer;
+        const QuietGdal inner;
+        EXPECT_STREQ(patience(), "20");
+    }
+    EXPECT_EQ(patience(), nullptr);
+    CPLSetConfigOption("GDAL_HTTP_LOW_SPEED_TIME", "300");
+    {
+        const QuietGdal gdal;
+        EXPECT_STREQ(patience(), "300");
+    }
+    EXPECT_STREQ(patience(), "300");
+    CPLSetConfigOption("GDAL_HTTP_LOW_SPEED_TIME", nullptr);
+}
 
 TEST_F(DemSource, PutsTheSouthernRowFirstAndPostsOnPixelCentres) {
     const auto dem = test::readDem(asciiGrid(3, 2, "0 1 2\n3 4 -9999"));

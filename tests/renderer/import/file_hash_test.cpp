@@ -137,6 +137,18 @@ TEST_F(FileHash, LeavesNoNoteOfASmallFileNorWhereItCannot) {
     EXPECT_TRUE(absl::IsNotFound(fileHash(folder_.path("no.tif"), notes_).status()));
 }
 
+TEST_F(FileHash, IsCalledOffWithoutANote) {
+    std::stop_source stop;
+    const std::uint64_t before = bytesRead();
+    stop.request_stop();
+    EXPECT_TRUE(absl::IsCancelled(fileHash(path_, notes_, stop.get_token()).status()));
+    noteHash(path_, notes_, stop.get_token());
+    EXPECT_LT(bytesRead() - before, kLarge);
+    EXPECT_EQ(notesKept(), 0U);
+    EXPECT_EQ(hashed(), hash(""));
+    EXPECT_TRUE(fileHash(path_, notes_, stop.get_token()).ok()) << "known";
+}
+
 /// A strip of 17 MB, most of which one of two shards has.
 TEST(TerrainShardHashes, AreNotedOnceForAllShardsAndGoWithTheirParts) {
     const test::TemporaryFolder folder;

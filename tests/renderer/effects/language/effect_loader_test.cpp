@@ -58,6 +58,16 @@ TEST(EffectLoader, PutsBlocksBeforeTheEffectThatIncludesThem) {
               "#line 4000003 0\nuniform vec3 c[N];\n#line 4000004 0\n\n");
 }
 
+TEST(EffectLoader, FilesMayBeginWithAByteOrderMark) {
+    const Files files{
+        {"a.effect", "\xEF\xBB\xBFinclude \"b.block\";\nstage vertex {}\nstage fragment {}"},
+        {"b.block", "\xEF\xBB\xBFuniform float a;\n"}};
+    EXPECT_EQ(errorOf(files), "");
+    EXPECT_EQ(
+        errorIn("\xEF\xBB\xBFnonsense"),
+        "a.effect:1:1: expected include, variant, uniform, input, pass or stage, found 'nonsense'");
+}
+
 TEST(EffectLoader, PutsWhatIsSharedIntoBothStages) {
     const Files files{
         {"a.effect", "include \"b.block\";\nstage vertex { v }\nstage fragment { f }"},

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/layered_dems.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <malloc.h>
+
+#include "fabric/status.h"
+#include "renderer/import/raster_file.h"
+#include "renderer/terrain/quadtree.h"
+
+namespace eyrie::import {
+namespace {
+
+using fabric::Vec2;
+
+/// `out` rows from the last to the first where the raster's first row is the frame's last.
+class LayeredSource : public HeightSource {
+public:
+    /// Best layer first. `reference` is in metres, of a raster of columns x rows.
+    LayeredSource(std::vector<DemLayer> layers, const Georeference& reference, int columns,
+                  int rows)
+        : layers_(std::move(layers)), isFlipped_(determinant(reference) < 0) {
+        frame_ = {columns, rows, reference.origin + (reference.perColumn + reference.perRow) * 0.5,
+                  reference.perColumn, reference.perRow};
+        if (!isFlipped_)
+            return;
+        frame_.origin += reference.perRow * static_cast<double>(rows - 1);
+        frame_.perRow = Vec2(0.0) - reference.perRow;  // no negative zeros
+    }
+
+    const terrain::GridFrame& frame() const override { return frame_; }
+    bool isLastRowFirst() const override { return isFlipped_; }
+
+    absl::Status read(const terrain::PostRect& window, float* out) override {
+        const auto count =
+            static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows);
+        std::fill_n(out, count, terrain::kNodata);
+        bool isFirst = true;
+        for (const DemLayer& layer : layers_) {
+            if (!isFirst && std::none_of(out, out + count, [](float h) { return h != h; }))
+                break;
+            RETURN_IF_ERROR(addLayer(layer, window, out));
+            isFirst = false;
+        }
+        return absl::OkStatus();
+    }
+
+    std::vector<std::string> findings() const override {
+        std::vector<std::string> findings = findings_;
+        for (const DemLayer& layer : layers_)
+            for (const DemFile& file : layer.files)
+                if (const auto& found = *file.impossible)
+                    findings.push_back(fmt::format(
+                        "{} in column {} and row {} of {} can be no height; it is taken for "
+                        "nodata, and so is what else is like it",
+                        found->value, found->column, found->row, file.path));
+        return findings;
+    }
+
+    void foundBefore(std::vector<std::string> findings) override {
+        findings_ = std::move(findings);
+    }
+
+    std::uint64_t release() override {
+        findings_ = findings();
+        layers_.clear();
+        buffer_ = {};
+        malloc_trim(0);              // blocks are small: the heap would keep them
+        return kGdalCacheBytes / 2;  // so much less the process holds: measured
+    }
+
+private:
+    /// Fills in what is nodata so far.
+    absl::Status addLayer(const DemLayer& layer, const terrain::PostRect& window, float* out) {
+        const int firstRow = isFlipped_ ? frame_.rows - window.j - window.rows : window.j;
+        const auto box = layer.box;
+        const int i0 = std::max(window.i, static_cast<int>(box.column));
+        const int j0 = std::max(firstRow, static_cast<int>(box.row));
+        const int i1 =
+            std::min(window.i + window.columns, static_cast<int>(box.column) + box.columns);
+        const int j1 = std::min(firstRow + window.rows, static_cast<int>(box.row) + box.rows);
+        if (i0 >= i1 || j0 >= j1)
+            return absl::OkStatus();
+        const int columns = i1 - i0;
+        const int rows = j1 - j0;
+        buffer_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+        QuietGdal gdal;
+        if (GDALRasterIO(layer.band(), GF_Read, i0 - static_cast<int>(box.column),
+                         j0 - static_cast<int>(box.row), columns, rows, buffer_.data(), columns,
+                         rows, GDT_Float32, 0, 0) != CE_None)
+            return absl::DataLossError(fmt::format(
+                "{}: rows {} to {} cannot be read ({}); {}", nameOf(layer.files), j0 - box.row,
+                j1 - 1 - box.row, gdal.takeError(), whyUnreadable(layer.files.front().path)));
+        constexpr float kImpossible = 1e30F;
+        for (int v = 0; v < rows; ++v) {
+            const int row = isFlipped_ ? window.rows - 1 - (j0 - firstRow + v) : j0 - firstRow + v;
+            float* to = out + static_cast<std::ptrdiff_t>(row) * window.columns + (i0 - window.i);
+            const float* from = buffer_.data() + static_cast<std::ptrdiff_t>(v) * columns;
+            for (int u = 0; u < columns; ++u)
+                if (to[u] != to[u] && std::abs(from[u]) < kImpossible)
+                    to[u] = from[u];
+        }
+        return absl::OkStatus();
+    }
+
+    std::vector<DemLayer> layers_;
+    bool isFlipped_;
+    terrain::GridFrame frame_;
+    std::vector<float> buffer_;
+    std::vector<std::string> findings_;  ///< before, and in layers that have been released
+};
+
+}  // namespace
+
+std::string nameOf(const std::vector<DemFile>& files) {
+    return files.size() == 1 ? files.front().path
+                             : fmt::format("{} and {} more", files.front().path, files.size() - 1);
+}
+
+double determinant(const Georeference& g) {
+    return g.perColumn.x * g.perRow.y - g.perColumn.y * g.perRow.x;
+}
+
+absl::Status checkSize(const std::string& path, std::int64_t columns, std::int64_t rows) {
+    if (columns < 2 || rows < 2)
+        return invalid(
+            path, fmt::format("has {} x {} posts; a terrain needs at least 2 x 2", columns, rows));
+    constexpr std::int64_t kMaxSide = terrain::kMaxPosts;
+    if (columns > kMaxSide || rows > kMaxSide ||
+        static_cast<std::uint64_t>(columns * rows) > terrain::kMaxGridPosts)
+        return absl::ResourceExhaustedError(fmt::format(
+            "{}: has {} x {} posts; the limits are {} posts a side and {} in all; import a part of "
+            "it (gdal_translate -srcwin) or fewer posts (-outsize)",
+            path, columns, rows, kMaxSide, terrain::kMaxGridPosts));
+    return absl::OkStatus();
+}
+
+std::unique_ptr<HeightSource> layeredDems(std::vector<DemLayer> layers,
+                                          const Georeference& reference, int columns, int rows) {
+    return std::make_unique<LayeredSource>(std::move(layers), reference, columns, rows);
+}
+
+}  // namespace eyrie::import
