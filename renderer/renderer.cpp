@@ -75,7 +75,6 @@ absl::Status checkReach(const fabric::SceneObject& object, const fabric::Box& bo
     return absl::OkStatus();
 }
 
-/// What there is of terrains besides pages, whatever is drawn.
 /// What the indices of terrains take in memory for as long as they are open.
 std::uint64_t indexBytesOf(const std::vector<ObjectFile>& files) {
     std::uint64_t bytes = 0;
