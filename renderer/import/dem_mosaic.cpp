@@ -34,6 +34,11 @@ double pixelMetres(const DemFile& file) {
     return file.crs ? side * OSRGetLinearUnits(file.crs.get(), nullptr) : side;
 }
 
+/// Share of a grid's posts: where rasters have fewer, people should know.
+constexpr double kMostlyEmpty = 0.1;
+
+double postsOf(const PixelBox& box) { return static_cast<double>(box.columns) * box.rows; }
+
 /// Enlarges `all` (none: of nothing) by `box`.
 void addTo(std::optional<PixelBox>& all, const PixelBox& box) {
     const PixelBox before = all.value_or(box);
@@ -288,6 +293,7 @@ private:
                 continue;
             }
             addTo(all, *box);
+            placed_ += postsOf(*box);
             layer.files.push_back(std::move(file));
         }
         if (!all)
@@ -320,6 +326,11 @@ private:
         notes_.push_back(fmt::format("brought to {}: {} x {} posts, {:.4g} m apart",
                                      crs_ ? OSRGetName(crs_.get()) : "one grid", all.columns,
                                      all.rows, reference.perColumn.x));
+        if (const double share = placed_ / postsOf(all); share < kMostlyEmpty)
+            notes_.push_back(
+                fmt::format("at most {:.2g} % of these posts are of a raster; what lies far apart "
+                            "is better imported as terrains of their own, for one scene",
+                            100 * share));
         if (!caveat_.empty())
             notes_.push_back(caveat_);
         return DemSource{layeredDems(std::move(layers), reference, all.columns, all.rows),
@@ -336,6 +347,7 @@ private:
     std::string wkt_;            ///< of `crs_`, in whose units `grid_` is
     PixelGrid grid_;
     std::optional<PixelBox> extent_;  ///< of all that have been placed
+    double placed_ = 0;               ///< posts of these, those that several have counted anew
     std::vector<std::string> notes_;
 };
 

@@ -49,6 +49,19 @@ TEST_F(DemMosaic, LeavesOpenWhatNoRasterCovers) {
         }
 }
 
+TEST_F(DemMosaic, SaysThatRastersFarApartLeaveMostOfItEmpty) {
+    const std::string a = write({.west = 500000, .north = 5200100, .height = constant(1)});
+    const auto notesWith = [&](double west) {
+        const std::string b = write({.west = west, .north = 5200100, .height = constant(2)});
+        const auto dem = openDems({a, b}, {});
+        EXPECT_TRUE(dem.ok()) << dem.status();
+        return dem->notes;
+    };
+    const auto isEmpty = testing::Contains(HasSubstr("at most 2 % of these posts"));
+    EXPECT_THAT(notesWith(509900), isEmpty);  // 20 of 1000 columns
+    EXPECT_THAT(notesWith(500900), testing::Not(testing::Contains(HasSubstr("of these posts"))));
+}
+
 TEST_F(DemMosaic, TakesTheLastNamedOfEquallyFineOnes) {
     const std::string a = write({.west = 500000, .north = 5200100, .height = constant(1)});
     const std::string b = write({.west = 500050, .north = 5200100, .height = constant(2)});
