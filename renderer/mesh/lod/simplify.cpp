@@ -100,6 +100,7 @@ private:
     StarField fieldAround(std::uint32_t point, std::span<const FieldChanges> changes,
                           const ValueAt& valueAt) const;
     std::optional<StarField> coloursAround(std::uint32_t point) const;
+    FieldValue normalAt(const Corner& corner) const;
     StarField normalsAround(std::uint32_t point) const;
     bool collapse(std::uint32_t point, std::uint32_t target);
     void moveCorners(std::uint32_t from, std::uint32_t onto, std::uint32_t vertex);
@@ -112,12 +113,14 @@ private:
     std::vector<FieldChanges> tints_;    ///< of a face; none where there is but one colour
     std::vector<FieldChanges> normals_;  ///< of a face
     std::vector<glm::dvec3> points_;
-    std::vector<CornerId> corners_;  ///< of all points; what was replaced is left behind
-    std::vector<Corners> around_;    ///< of a point; some may be of faces that are gone
-    std::vector<Collapse> best_;     ///< of a point
-    std::vector<bool> isStale_;      ///< whether something changed around it since
-    std::vector<bool> isStaying_;    ///< of a point
-    std::vector<bool> isInner_;      ///< whether it had a closed ring at first, and may go
+    std::vector<std::uint32_t> firstVertices_;  ///< of a point: that which was met first ...
+    std::vector<FieldValue> firstNormals_;      ///< ... and its normal
+    std::vector<CornerId> corners_;             ///< of all points; what was replaced is left behind
+    std::vector<Corners> around_;               ///< of a point; some may be of faces that are gone
+    std::vector<Collapse> best_;                ///< of a point
+    std::vector<bool> isStale_;                 ///< whether something changed around it since
+    std::vector<bool> isStaying_;               ///< of a point
+    std::vector<bool> isInner_;  ///< whether it had a closed ring at first, and may go
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
     std::vector<std::uint32_t> mark_;
     std::uint32_t marking_ = 0;
@@ -129,10 +132,7 @@ private:
 
 Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch,
                        std::span<const std::uint8_t> staying)
-    : mesh_(mesh),
-      shifts_(patch.shifts),
-      normals_(normalChangesOf(mesh, patch)),
-      left_(patch.triangles.size()) {
+    : mesh_(mesh), shifts_(patch.shifts), normals_(patch.normals), left_(patch.triangles.size()) {
     if (!hasOneColour(mesh, patch))
         tints_ = tintsOf(mesh, patch);
     faces_.reserve(left_);
@@ -143,6 +143,11 @@ Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch,
         faces_.push_back(face);
     }
     link(mesh);
+    normals_.reserve(faces_.size());
+    if (normals_.empty())
+        for (const auto& [corners, isThere] : faces_)
+            normals_.emplace_back(
+                rangeOf({normalAt(corners[0]), normalAt(corners[1]), normalAt(corners[2])}));
     isStaying_.resize(points_.size(), false);
     if (!staying.empty())
         for (const Face& face : faces_)
@@ -156,7 +161,8 @@ Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch,
 void Simplifier::link(const PackedMesh& mesh) {
     std::vector<std::uint32_t> slots(std::bit_ceil(faces_.size() * 3 + 2), kNone);
     std::vector<std::uint64_t> positions;
-    const auto pointAt = [&](std::uint64_t position) {
+    const auto pointAt = [&](std::uint32_t vertex) {
+        const std::uint64_t position = mesh.positions[vertex];
         std::size_t slot = (position * 0x9E3779B97F4A7C15ULL >> 32) & (slots.size() - 1);
         while (slots[slot] != kNone && positions[slots[slot]] != position)
             slot = (slot + 1) & (slots.size() - 1);
@@ -164,13 +170,15 @@ void Simplifier::link(const PackedMesh& mesh) {
             slots[slot] = static_cast<std::uint32_t>(points_.size());
             positions.push_back(position);
             points_.emplace_back(unpackPosition(position));
+            firstVertices_.push_back(vertex);
+            firstNormals_.push_back(normalOf(mesh, vertex));
             around_.emplace_back();
         }
         return slots[slot];
     };
     for (Face& face : faces_)
         for (Corner& corner : face.corners) {
-            corner.point = pointAt(mesh.positions[corner.vertex]);
+            corner.point = pointAt(corner.vertex);
             ++around_[corner.point].count;
         }
     std::size_t end = 0;
@@ -294,27 +302,18 @@ Shifts Simplifier::shiftsOf(const Star& star, const Star::Replaced& replaced) co
     return moved(before, star, replaced.shift);
 }
 
-/// `valueAt`, of a vertex, on the star of the point whose ring_ this is, with what `changes` has of
+/// `valueAt`, of a corner, on the star of the point whose ring_ this is, with what `changes` has of
 /// its faces.
 template <typename ValueAt>
 StarField Simplifier::fieldAround(std::uint32_t point, std::span<const FieldChanges> changes,
                                   const ValueAt& valueAt) const {
-    const auto vertexAt = [&](std::uint32_t face, std::uint32_t at) {
-        return std::ranges::find(faces_[face].corners, at, &Corner::point)->vertex;
+    const auto at = [&](std::uint32_t face, std::uint32_t of) {
+        return valueAt(*std::ranges::find(faces_[face].corners, of, &Corner::point));
     };
-    StarField field(valueAt(vertexAt(ring_[0].face, point)));
-    std::uint32_t last = kNone;
-    FieldValue value{};
-    // Where a triangle ends the next begins, mostly with the same vertex.
-    const auto next = [&](std::uint32_t vertex) {
-        if (std::exchange(last, vertex) != vertex)
-            value = valueAt(vertex);
-        return value;
-    };
-    for (const Neighbour& neighbour : ring_) {
-        const FieldValue from = next(neighbour.vertex);
-        field.add(from, next(vertexAt(neighbour.face, neighbour.next)), changes[neighbour.face]);
-    }
+    StarField field(at(ring_[0].face, point));
+    for (const Neighbour& neighbour : ring_)
+        field.add(valueAt(Corner{neighbour.vertex, neighbour.point}),
+                  at(neighbour.face, neighbour.next), changes[neighbour.face]);
     return field;
 }
 
@@ -322,14 +321,19 @@ StarField Simplifier::fieldAround(std::uint32_t point, std::span<const FieldChan
 std::optional<StarField> Simplifier::coloursAround(std::uint32_t point) const {
     if (tints_.empty())
         return std::nullopt;
-    return fieldAround(point, tints_, [&](std::uint32_t vertex) {
-        return lightOf(unpackColour(mesh_.colours[vertex]));
+    return fieldAround(point, tints_, [&](const Corner& corner) {
+        return lightOf(unpackColour(mesh_.colours[corner.vertex]));
     });
 }
 
+/// Most points have one vertex, whose normal is unpacked once.
+FieldValue Simplifier::normalAt(const Corner& corner) const {
+    return firstVertices_[corner.point] == corner.vertex ? firstNormals_[corner.point]
+                                                         : normalOf(mesh_, corner.vertex);
+}
+
 StarField Simplifier::normalsAround(std::uint32_t point) const {
-    return fieldAround(point, normals_,
-                       [&](std::uint32_t vertex) { return normalOf(mesh_, vertex); });
+    return fieldAround(point, normals_, [&](const Corner& corner) { return normalAt(corner); });
 }
 
 /// The ring's place with the least cost that is not in `excluded`; the ring's size if there is
@@ -496,6 +500,9 @@ Simplified Simplifier::run(std::size_t target) {
         else if (!collapse(point, best_[point].target))
             look(point, true);
     }
+    result.patch.triangles.reserve(left_);
+    result.patch.shifts.reserve(left_);
+    result.patch.normals.reserve(left_);
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         const auto& corners = faces_[i].corners;
         if (!faces_[i].isThere)
