@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "fabric/status.h"
 #include "renderer/draw/box_lines.h"
@@ -18,6 +19,7 @@
 #include "renderer/draw/object_program.h"
 #include "renderer/draw/tint.h"
 #include "renderer/gl/object.h"
+#include "renderer/lod/view.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/pick/mesh_surface.h"
 
@@ -34,6 +36,24 @@ std::uint32_t packedSrgb(const fabric::Vec3& linear) {
     return byte(linear.x) | byte(linear.y) << 8 | byte(linear.z) << 16 | 0xFF000000U;
 }
 
+/// By how much a map stretches what it stretches most more than what it stretches least; 1 of maps
+/// that keep angles.
+double unevennessOf(const fabric::Mat3& map) {
+    constexpr double kRounding = 1e-9;
+    const double uneven = lod::largestStretch(map) * lod::largestStretch(glm::inverse(map));
+    return uneven <= 1 + kRounding ? 1 : uneven;
+}
+
+/// The largest angle between normals `degrees` apart at most, or so on average, under a map as
+/// uneven, which are mapped by its inverse transpose: largest where they lie on both sides of what
+/// that stretches least. Of a mean, too, as it bends down (Jensen).
+double mostUnder(double uneven, double degrees) {
+    if (uneven == 1 || degrees == 0)
+        return degrees;
+    const double half = std::atan(uneven * std::tan(glm::radians(degrees) / 2));
+    return std::isfinite(half) ? glm::degrees(2 * half) : 180;
+}
+
 class MeshDrawable : public Drawable {
 public:
     MeshDrawable(const fabric::SceneObject& object, MeshPrograms& programs,
@@ -41,6 +61,7 @@ public:
                  MeshTextures textures, std::unique_ptr<MeshPaging> paging)
         : programs_(programs),
           worldFromObject_(object.worldFromObject),
+          unevenness_(unevennessOf(fabric::Mat3(object.worldFromObject))),
           uniformColour_(packedSrgb(object.colour)),
           singleSided_(object.singleSided),
           file_(std::move(file)),
@@ -102,6 +123,7 @@ private:
 
     MeshPrograms& programs_;
     fabric::Mat4 worldFromObject_;
+    double unevenness_;  ///< of that
     std::uint32_t uniformColour_;
     bool singleSided_;
     std::shared_ptr<const mesh::EymFile> file_;
@@ -305,10 +327,10 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
                                 fabric::FrameStatistics& statistics) {
     for (const Piece& piece : pieces) {
         const mesh::Node& node = file_->nodes()[piece.index];
-        statistics.normalErrorDegrees =
-            std::max(statistics.normalErrorDegrees, double{node.normalErrorDegrees});
-        statistics.normalErrorMeanDegrees =
-            std::max(statistics.normalErrorMeanDegrees, double{node.normalErrorMeanDegrees});
+        statistics.normalErrorDegrees = std::max(statistics.normalErrorDegrees,
+                                                 mostUnder(unevenness_, node.normalErrorDegrees));
+        statistics.normalErrorMeanDegrees = std::max(
+            statistics.normalErrorMeanDegrees, mostUnder(unevenness_, node.normalErrorMeanDegrees));
     }
     const bool isWhole = file_->materials().empty() ||
                          frame.shading == fabric::Shading::Wireframe || isTinted(frame);

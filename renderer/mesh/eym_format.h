@@ -127,7 +127,8 @@ struct Node {
     /// blended from its vertices', and that of a point of the source within errorMetres, as blended
     /// from the leaves'. 0 of leaves and without geometry, 180 where nothing is known.
     float normalErrorDegrees = 0;
-    /// Upper bound on the mean of that angle over the area of the node's geometry.
+    /// Upper bound on the mean of that angle over the area of the node's geometry or, of points, of
+    /// the surface that they are samples of.
     float normalErrorMeanDegrees = 0;
 
     /// At any point of what is drawn for this node the colour of its vertices, channel by channel

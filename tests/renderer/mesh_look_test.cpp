@@ -2,7 +2,12 @@
 // Looks of meshes: boxes, and colours that tell what the engine did.
 #include <array>
 #include <cmath>
+#include <random>
 
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
 #include "fabric/depth_merge.h"
@@ -110,6 +115,41 @@ TEST_P(MeshLook, SaysHowFarNormalsMayBeOff) {
     EXPECT_GT(coarsest.normalErrorMeanDegrees, 0);
     EXPECT_EQ(coarsest.normalErrorDegrees, double{file->nodes()[0].normalErrorDegrees});
     EXPECT_EQ(coarsest.normalErrorMeanDegrees, double{file->nodes()[0].normalErrorMeanDegrees});
+}
+
+/// Normals of what is drawn flattened are turned farther apart than those of the file.
+TEST_P(MeshLook, SaysHowFarNormalsMayBeOffWhereAMapIsUneven) {
+    const auto file = mesh::EymFile::open(folder_.path("ball.eym"));
+    ASSERT_TRUE(file.ok()) << file.status();
+    fabric::Scene scene;
+    const fabric::Mat4 map = glm::rotate(fabric::Mat4(1), 0.7, fabric::Vec3(1, 2, 3)) *
+                             glm::scale(fabric::Mat4(1), fabric::Vec3(1, 0.8, 0.25)) *
+                             glm::rotate(fabric::Mat4(1), -0.3, fabric::Vec3(2, 1, 0));
+    scene.objects.push_back(
+        {.name = "flat", .path = folder_.path("ball.eym"), .worldFromObject = map});
+    ASSERT_TRUE(renderer_->openScene(scene).ok());
+    const double inFile = file->nodes()[0].normalErrorMeanDegrees;
+    const double said =
+        draw({}, {}, fabric::Shading::Smooth, 1000).statistics.normalErrorMeanDegrees;
+    const fabric::Mat3 ofNormals = glm::transpose(glm::inverse(fabric::Mat3(map)));
+    std::mt19937 random(5);
+    std::normal_distribution<double> share;
+    const auto direction = [&] {
+        return glm::normalize(fabric::Vec3(share(random), share(random), share(random)));
+    };
+    double most = 0;
+    for (int i = 0; i < 100000; ++i) {
+        const fabric::Vec3 a = direction();
+        const fabric::Vec3 across = glm::normalize(glm::cross(a, direction()));
+        const fabric::Vec3 b = fabric::Vec3(
+            glm::rotate(fabric::Mat4(1), glm::radians(inFile), across) * fabric::Vec4(a, 0));
+        most = std::max(
+            most, glm::degrees(std::acos(std::clamp(
+                      glm::dot(glm::normalize(ofNormals * a), glm::normalize(ofNormals * b)), -1.0,
+                      1.0))));
+    }
+    EXPECT_LE(most, said);
+    EXPECT_GT(most, 0.95 * said);
 }
 
 TEST_P(MeshLook, TintsChangeColoursAlone) {
