@@ -18,7 +18,7 @@ namespace eyrie::mesh {
 namespace {
 
 /// Triangles a column has about, were they spread evenly.
-constexpr std::size_t kTrianglesPerColumn = 2;
+constexpr std::size_t kTrianglesPerColumn = 4;
 /// Columns that a triangle may stand in, on average, and triangles it may be compared with.
 constexpr std::size_t kMostColumns = 32;
 constexpr std::size_t kMostComparisons = 512;
