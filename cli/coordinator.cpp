@@ -3,8 +3,8 @@
 
 #include <cstdio>
 #include <memory>
-#include <span>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -18,6 +18,7 @@
 #include "cli/log.h"
 #include "cli/program_runs.h"
 #include "cli/quota_options.h"
+#include "cli/shown_data.h"
 #include "cli/stop_signal.h"
 #include "cli/video_option.h"
 #include "cli/web_door.h"
@@ -29,10 +30,9 @@ namespace eyrie::cli {
 namespace {
 
 struct Options {
-    std::string scene;
+    ShownData data;
     std::string listen = "127.0.0.1:8080";
     std::string grpc = "127.0.0.1:9090";
-    std::string data;
     bool grpcReflection = false;
     CacheOptions cache;
     ConfigOptions config;
@@ -48,6 +48,7 @@ absl::Status coordinate(const Options& options) {
     if (options.quiet)
         quietLog();
     RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.grpc), "--grpc"));
+    logWhoShows(options.data);
     ASSIGN_OR_RETURN(const Doors doors, doorsOf(options.door));
     ASSIGN_OR_RETURN(const video::Module* video, videoModule(options.h264));
     RETURN_IF_ERROR(checkGrpcDoor(doors, options.grpc, "--grpc"));
@@ -57,17 +58,18 @@ absl::Status coordinate(const Options& options) {
     ASSIGN_OR_RETURN(settings.configuration, configurationOf(options.config, options.quiet));
     settings.configurationFile = configurationName(options.config);
     settings.layout = compoundNames().at(options.config.compound);
-    settings.dataFolder = options.data;
+    settings.dataFolder = options.data.folder;
     ASSIGN_OR_RETURN(settings.programs, programsOf(options.programs));
     ASSIGN_OR_RETURN(settings.quotas, quotasOf(options.quotas));
     settings.grpcReflection = options.grpcReflection;
-    ASSIGN_OR_RETURN(settings.scene, loadScene(std::span(&options.scene, 1), options.cache,
-                                               options.quiet, stop.token()));
+    ASSIGN_OR_RETURN(fabric::Scene scene,
+                     loadScene(options.data.names, options.cache, options.quiet, stop.token()));
     auto coordinator = coordinator::Coordinator::start(settings);
     if (absl::IsUnavailable(coordinator.status()))  // a port in use: the caller can choose another
         return fabric::withContext(absl::InvalidArgumentError(coordinator.status().message()),
                                    "--grpc");
     RETURN_IF_ERROR(coordinator.status());
+    RETURN_IF_ERROR((*coordinator)->setScene(std::move(scene)));
     ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, video,
                                                   options.quotas.crowd, **coordinator));
     fmt::print("Eyrie is at {}\n", door->url());
@@ -85,23 +87,13 @@ void addCoordinator(CLI::App& app, Run& run) {
     auto options = std::make_shared<Options>();
     CLI::App* command =
         app.add_subcommand("coordinator", "Show data in the browser, drawn by other processes");
-    command->add_option("scene", options->scene, "What is shown, as for `eyrie serve`")
-        ->type_name("FILE|URL")
-        ->required();
+    addShownData(*command, options->data);
     command->add_option("--listen", options->listen, "Where browsers find it; port 0: any free one")
         ->type_name("HOST:PORT")
         ->capture_default_str();
     command->add_option("--grpc", options->grpc, "Where renderers register; port 0: any free one")
         ->type_name("HOST:PORT|unix:/PATH")
         ->capture_default_str();
-    command
-        ->add_option(
-            "--data", options->data,
-            "Where programs may name imported files, import more, and keep flights; and "
-            "where the scene and settings that they set are kept for the next start, which "
-            "takes them up while the command line has the same scene and --config "
-            "[nowhere]")
-        ->type_name("DIR");
     addProgramOptions(*command, options->programs);
     addQuotaOptions(*command, options->quotas);
     addReflectionOption(*command, options->grpcReflection);

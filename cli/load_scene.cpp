@@ -16,6 +16,8 @@ namespace eyrie::cli {
 absl::StatusOr<fabric::Scene> loadScene(std::span<const std::string> paths,
                                         const CacheOptions& options, bool isQuiet,
                                         const std::stop_token& stop) {
+    if (paths.empty())
+        return fabric::Scene{};
     ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.folder));
     ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options));
     DataCache cache(folder, ProgressBar::styleFor(isQuiet), stop,

@@ -31,6 +31,7 @@ struct Options {
     int device = -1;
     TileDecoding decoding = TileDecoding::Auto;
     std::vector<std::string> allowedUrls;
+    std::string data;
     std::vector<std::string> dataAt;
     CacheOptions cache;
     DoorOptions door;
@@ -57,6 +58,8 @@ absl::Status run(const Options& options) {
     ASSIGN_OR_RETURN(settings.remote, remoteDataOf(options.cache));
     auto places = service::DataPlaces::parse(options.dataAt);
     RETURN_IF_ERROR(fabric::withContext(places.status(), "--data-at"));
+    if (!options.data.empty())
+        RETURN_IF_ERROR(fabric::withContext(places->lookIn(options.data), "--data"));
     service::RendererNodeOptions node;
     node.coordinator = options.coordinator;
     node.listen = options.listen;
@@ -106,6 +109,12 @@ void addRenderer(CLI::App& app, Run& run) {
         ->type_name("BYTES[K|M|G|T]")
         ->capture_default_str();
     command
+        ->add_option("--data", options->data,
+                     "Folder in which this machine has the scenes' files: each is looked for there "
+                     "first, by the longest end of its path that is found "
+                     "[where the scene names it]")
+        ->type_name("DIR");
+    command
         ->add_option(
             "--data-at", options->dataAt,
             "Where this machine has a file, folder or URL that scenes name, such as "
@@ -129,11 +138,10 @@ void addRenderer(CLI::App& app, Run& run) {
         "Example, on each machine that draws:\n"
         "  eyrie renderer --coordinator viz:9090 --listen 0.0.0.0:0 --memory 8G --token-file "
         "tokens\n"
-        "The data must be readable under the paths that the coordinator names, or where --data-at\n"
-        "says, and the same as the other renderers'. URLs are read only where --allow-url says "
-        "so:\n"
-        "else whoever reaches this port could have this machine ask servers that only it can\n"
-        "reach. Redirections of an allowed server are followed.\n"
+        "The data must be readable under the paths that the coordinator names, or in --data or\n"
+        "where --data-at says, and the same as the other renderers'. URLs are read only where\n"
+        "--allow-url says so: else whoever reaches this port could have this machine ask servers\n"
+        "that only it can reach. Redirections of an allowed server are followed.\n"
         "EYRIE_EFFECTS=FOLDER takes shaders from there, also while drawing: docs/effects.md.");
     command->callback([options, &run] { run = [options] { return cli::run(*options); }; });
 }

@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 #include <thread>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -23,6 +22,7 @@
 #include "cli/log.h"
 #include "cli/program_runs.h"
 #include "cli/quota_options.h"
+#include "cli/shown_data.h"
 #include "cli/stop_signal.h"
 #include "cli/video_option.h"
 #include "cli/web_door.h"
@@ -38,11 +38,10 @@ constexpr std::chrono::seconds kFirstRendererLimit{20};
 constexpr std::chrono::milliseconds kPollInterval{100};
 
 struct Options {
-    std::vector<std::string> data;
+    ShownData data;
     std::string listen = "127.0.0.1:8080";
     std::string grpc;  ///< empty: nowhere
     bool grpcReflection = false;
-    std::string dataFolder;
     CacheOptions cache;
     TileDecoding decoding = TileDecoding::Auto;
     ConfigOptions config;
@@ -53,6 +52,17 @@ struct Options {
     bool h264 = false;
     bool quiet = false;
 };
+
+/// Checks the number of renderers; turns auto into the 0 that stands for it, and is taken, too.
+std::string countOrAuto(std::string& text) {
+    if (text == "auto") {
+        text = "0";
+        return {};
+    }
+    if (CLI::Range(0, RendererProcesses::kMaxCount)(text).empty())
+        return {};
+    return fmt::format("{} is neither auto nor 1 to {}", text, RendererProcesses::kMaxCount);
+}
 
 void announce(const std::string& url, const coordinator::Status& status, bool quiet) {
     fmt::print("Eyrie is at {}\n", url);
@@ -117,7 +127,7 @@ absl::StatusOr<coordinator::CoordinatorOptions> settingsOf(const Options& option
     ASSIGN_OR_RETURN(settings.configuration, configurationOf(options.config, options.quiet));
     settings.configurationFile = configurationName(options.config);
     settings.layout = compoundNames().at(options.config.compound);
-    settings.dataFolder = options.dataFolder;
+    settings.dataFolder = options.data.folder;
     ASSIGN_OR_RETURN(settings.programs, programsOf(options.programs));
     ASSIGN_OR_RETURN(settings.quotas, quotasOf(options.quotas));
     return settings;
@@ -127,6 +137,7 @@ absl::Status serve(const Options& options) {
     const StopSignal stop;
     if (options.quiet)
         quietLog();
+    logWhoShows(options.data);
     ASSIGN_OR_RETURN(const Doors doors, doorsOf(options.door));
     ASSIGN_OR_RETURN(const video::Module* video, videoModule(options.h264));
     ASSIGN_OR_RETURN(coordinator::CoordinatorOptions settings, settingsOf(options, doors));
@@ -139,11 +150,14 @@ absl::Status serve(const Options& options) {
     ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, video,
                                                   options.quotas.crowd, farm->coordinator()));
     ASSIGN_OR_RETURN(fabric::Scene scene,
-                     loadScene(options.data, options.cache, options.quiet, stop.token()));
+                     loadScene(options.data.names, options.cache, options.quiet, stop.token()));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
     const Shown shown = farm->frames().status().canvases;
     farm->startRenderers(count.of(shown));
-    const absl::Status ready = farm->awaitRenderers(1, kFirstRendererLimit, stop.token());
+    const absl::Status ready =
+        options.data.names.empty()
+            ? absl::OkStatus()  // whoever sets something to show waits himself
+            : farm->awaitRenderers(1, kFirstRendererLimit, stop.token());
     RETURN_IF_ERROR(farm->check());
     if (!ready.ok() && !absl::IsCancelled(ready))
         spdlog::warn("{}", std::string_view(ready.message().data(), ready.message().size()));
@@ -164,15 +178,7 @@ absl::Status serve(const Options& options) {
 void addServe(CLI::App& app, Run& run) {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("serve", "Show data in the browser, drawn here");
-    command
-        ->add_option(
-            "data", options->data,
-            "Scenes (.json), imported data (.eyt, .eym), or sources: meshes (.ply, .obj, .glb "
-            "and more) and any rasters that GDAL reads, which together are one terrain; imported "
-            "when they are new. Imported data may lie at URLs: https://…, or GDAL's /vsis3/…, "
-            "/vsigs/…, /vsiaz/…")
-        ->type_name("FILE|URL")
-        ->required();
+    addShownData(*command, options->data);
     command->add_option("--listen", options->listen, "Where browsers find it; port 0: any free one")
         ->type_name("HOST:PORT")
         ->capture_default_str();
@@ -183,17 +189,11 @@ void addServe(CLI::App& app, Run& run) {
     addReflectionOption(*command, options->grpcReflection)->needs("--grpc");
     command
         ->add_option("--renderers", options->renderers,
-                     "Renderer processes [as many as the layouts that --config shows use, at any "
-                     "time; one a GPU; without, two]")
-        ->check(CLI::Range(1, RendererProcesses::kMaxCount));
-    command
-        ->add_option(
-            "--data", options->dataFolder,
-            "Where programs may name imported files, import more, and keep flights; and "
-            "where the scene and settings that they set are kept for the next start, which "
-            "takes them up while the command line has the same scene and --config "
-            "[nowhere]")
-        ->type_name("DIR");
+                     "Renderer processes; auto: as many as the layouts that --config shows use, at "
+                     "any time; one a GPU; without, two")
+        ->transform(CLI::Validator(countOrAuto, ""))
+        ->type_name(fmt::format("auto|1 to {}", RendererProcesses::kMaxCount))
+        ->default_str("auto");
     addProgramOptions(*command, options->programs);
     addQuotaOptions(*command, options->quotas);
     addConfigOptions(*command, options->config);

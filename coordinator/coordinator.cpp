@@ -49,7 +49,8 @@ public:
                 std::move(dataFolder), options.programs, options.quotas, telemetry_, state_.get()}),
           door_(std::move(door)),
           watcher_([this](const std::stop_token& stop) { watchHeartbeats(*registry_, stop); }) {
-        setScene(options.scene);
+        if (!options.scene.objects.empty())
+            setScene(options.scene);
         door_->use(api_.handlers());
     }
 

@@ -39,7 +39,8 @@ struct CoordinatorOptions {
     api::Programs programs = {};  ///< what programs may have done by other processes
     api::Quotas quotas = {};      ///< what they may ask for
     bool grpcReflection = false;  ///< tools may ask over gRPC which calls there are
-    fabric::Scene scene = {};     ///< of .eyt and .eym files that the renderers can read
+    /// Of .eyt and .eym files that the renderers can read. Without objects: setScene() follows.
+    fabric::Scene scene = {};
 };
 
 /// A coordinator without its doors for browsers: renderers register with it, and it makes frames
@@ -67,7 +68,8 @@ public:
     const std::vector<std::string>& grpcAddresses() const;
 
     /// Has all renderers open `scene` in place of the one before: as CoordinatorOptions::scene, for
-    /// which another may have been set before. InvalidArgument: fabric::validate refuses it.
+    /// which another may have been set before. Without objects it is for programs to say what is
+    /// shown. InvalidArgument: fabric::validate refuses it.
     absl::Status setScene(fabric::Scene scene);
 
     /// Takes no more calls of programs over gRPC; those in progress go on, and renderers are heard

@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
+#include <system_error>
 #include <utility>
 
 #include <absl/status/status.h>
 #include <fmt/format.h>
+
+#include "renderer/page/remote_name.h"
 
 namespace eyrie::service {
 namespace {
@@ -15,6 +19,20 @@ namespace {
 bool isIn(std::string_view path, std::string_view folder) {
     return path.starts_with(folder) &&
            (path.size() == folder.size() || folder.ends_with('/') || path[folder.size()] == '/');
+}
+
+/// Of a file of another machine: the longest end of its path that lies in `folder`.
+std::optional<std::string> foundIn(const std::filesystem::path& folder, std::string_view path) {
+    if (folder.empty() || page::isRemote(path))
+        return std::nullopt;
+    for (std::size_t slash = path.find('/'); slash != std::string_view::npos;
+         slash = path.find('/', slash + 1)) {
+        std::filesystem::path place = folder / path.substr(slash + 1);
+        std::error_code error;
+        if (std::filesystem::is_regular_file(place, error))
+            return std::move(place).string();
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -39,11 +57,21 @@ absl::StatusOr<DataPlaces> DataPlaces::parse(std::span<const std::string> rules)
     return places;
 }
 
+absl::Status DataPlaces::lookIn(std::filesystem::path folder) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(folder, error))
+        return absl::InvalidArgumentError(fmt::format(
+            "{}: is no folder; name the one that has the scenes' files", folder.string()));
+    folder_ = std::move(folder);
+    return absl::OkStatus();
+}
+
 std::string DataPlaces::placed(std::string_view path) const {
     const auto rule =
         std::ranges::find_if(rules_, [&](const Rule& one) { return isIn(path, one.from); });
-    return rule == rules_.end() ? std::string(path)
-                                : rule->to + std::string(path.substr(rule->from.size()));
+    if (rule != rules_.end())
+        return rule->to + std::string(path.substr(rule->from.size()));
+    return foundIn(folder_, path).value_or(std::string(path));
 }
 
 }  // namespace eyrie::service

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <absl/status/status.h>
 #include <absl/status/statusor.h>
 
 namespace eyrie::service {
@@ -18,7 +20,12 @@ public:
     /// rule: without either side, or of a FROM that another has.
     static absl::StatusOr<DataPlaces> parse(std::span<const std::string> rules);
 
-    /// `path` with the longest FROM that it is, or lies beneath, replaced; as it is without one.
+    /// Has files that no rule is for looked for in `folder` first.
+    /// Errors: InvalidArgument, naming it: it is no folder.
+    absl::Status lookIn(std::filesystem::path folder);
+
+    /// `path` with the longest FROM that it is, or lies beneath, replaced. Without one, of a file
+    /// the longest end of its path that lies in the folder; else as it is.
     std::string placed(std::string_view path) const;
 
 private:
@@ -26,7 +33,8 @@ private:
         std::string from;
         std::string to;
     };
-    std::vector<Rule> rules_;  ///< the longest from first
+    std::vector<Rule> rules_;       ///< the longest from first
+    std::filesystem::path folder_;  ///< empty: none
 };
 
 }  // namespace eyrie::service

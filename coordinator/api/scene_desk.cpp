@@ -49,7 +49,7 @@ void SceneDesk::begin(fabric::Scene scene) {
         for (const fabric::SceneObject& object : scene.objects) allowed_.insert(object.path);
         commandLine_ = scene;
     }
-    const bool hasKept = state_ != nullptr && !scene.objects.empty() && state_->scene().has_scene();
+    const bool hasKept = state_ != nullptr && state_->scene().has_scene();
     const absl::Status shown = hasKept ? showKept(scene) : absl::NotFoundError("");
     if (shown.ok())
         return;

@@ -163,7 +163,8 @@ std::vector<RendererStatus> Crew::renderers() const {
 }
 
 void Crew::describe(const std::string& id, RendererStatus& status) const {
-    status.condition = RendererCondition::Opening;
+    status.condition =
+        scene_->objects.empty() ? RendererCondition::Ready : RendererCondition::Opening;
     for (const Seat& seat : seats_) {
         if (seat.member->id() != id)
             continue;

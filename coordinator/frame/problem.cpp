@@ -7,7 +7,7 @@ namespace eyrie::coordinator {
 
 std::string problemOf(const Situation& situation) {
     if (situation.sceneIsEmpty)
-        return "the scene is empty; open one that names a terrain or a mesh";
+        return "the scene is empty; start with data, or set a scene that names a terrain or a mesh";
     if (situation.ready > 0)
         return {};
     if (situation.opening > 0)

@@ -144,6 +144,16 @@ TEST_F(KeptState, IsOfASceneThatIsSetOnceTheDataAreThere) {
     expectScene("set later");
 }
 
+TEST_F(KeptState, IsOfASceneThatIsSetWhereTheCommandLineHasNone) {
+    options_.scene = {};
+    start();
+    ASSERT_TRUE(coordinator_->setScene({}).ok());
+    setScene();
+    start();
+    ASSERT_TRUE(coordinator_->setScene({}).ok());
+    expectScene("set later");
+}
+
 TEST_F(KeptState, GivesWayToAnotherSceneOfTheCommandLine) {
     setScene();
     setConfiguration();

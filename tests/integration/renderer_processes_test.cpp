@@ -126,7 +126,7 @@ TEST_F(RendererProcesses, ReadWhatASceneNamesWhereEachHasIt) {
     scene.objects[0].path = "/nowhere/data/ball.eym";
     const auto farm =
         test::RendererFarm::start(EYRIE_BINARY, 3, {.layout = "DB dynamic", .scene = scene},
-                                  {{"--data-at", "/nowhere/data=" + folder_->path().string()},
+                                  {{"--data", folder_->path().string()},
                                    {"--data-at", "/nowhere=/elsewhere", "--data-at",
                                     "/nowhere/data=" + folder_->path("copies/b")},
                                    {"--data-at", "/nowhere=" + folder_->path("copies")}});

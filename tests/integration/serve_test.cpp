@@ -27,14 +27,14 @@ using std::chrono::seconds;
 constexpr int kWidth = 640;
 constexpr int kHeight = 360;
 
-/// A server of the demo's scene with a temporary folder and a cache of its own.
+/// A server of the demo's scene, or of other data, with a temporary folder and a cache of its own.
 class Serve : public testing::Test {
 protected:
     void start(const std::string& listen = "127.0.0.1:0",
                const std::vector<std::string>& how = {"--renderers", "2"}) {
         std::filesystem::create_directory(folder_.path("tmp"));
-        std::vector<std::string> arguments{"serve", EYRIE_SOURCE_DIR "/demo/scene.json", "--listen",
-                                           listen};
+        std::vector<std::string> arguments{"serve", "--listen", listen};
+        arguments.insert(arguments.end(), data_.begin(), data_.end());
         arguments.insert(arguments.end(), how.begin(), how.end());
         server_ = std::make_unique<test::Process>(
             test::eyrieCommand(arguments),
@@ -155,6 +155,7 @@ protected:
         }
     }
 
+    std::vector<std::string> data_{EYRIE_SOURCE_DIR "/demo/scene.json"};
     test::TemporaryFolder folder_;
     std::unique_ptr<test::Process> server_;
     std::uint16_t port_ = 0;
@@ -185,6 +186,25 @@ TEST_F(Serve, AnswersAndEndsWithoutATraceOnATermination) {
         EXPECT_TRUE(test::eventually(seconds(10), [&] { return !test::isAlive(child); }))
             << "left behind: " << test::commandLineOf(child);
     EXPECT_EQ(test::namesIn(folder_.path("tmp")), std::set<std::string>{});
+}
+
+TEST_F(Serve, ShowsWhatProgramsSetWhereNoDataIsNamed) {
+    const std::string data = folder_.path("data");
+    std::filesystem::create_directory(data);
+    ASSERT_TRUE(test::succeeded({"synth", "mesh", "--size", "1000", "-o", folder_.path("b.ply")}));
+    ASSERT_TRUE(
+        test::succeeded({"import", "mesh", folder_.path("b.ply"), "-o", data + "/ball.eym"}));
+    data_.clear();
+    startAndWait({"--renderers", "auto", "--data", data});
+    EXPECT_NE(server_->errors().find("no data is named"), std::string::npos) << server_->errors();
+    const auto before = test::httpGet(port_, "/readyz");
+    ASSERT_TRUE(before.ok());
+    EXPECT_EQ(before->status, 503);
+    EXPECT_NE(before->body.find("the scene is empty"), std::string::npos) << before->body;
+    const auto set = test::httpPut(port_, "/api/v1/scene", R"({"objects":[{"mesh":"ball.eym"}]})");
+    ASSERT_TRUE(set.ok() && set->status == 200) << server_->errors();
+    EXPECT_TRUE(test::eventually(seconds(30), [&] { return httpStatus("/readyz") == 200; }));
+    EXPECT_EQ(httpStatus("/api/v1/image?width=64&height=36"), 200);
 }
 
 TEST_F(Serve, GoesOnWhenARendererIsKilledAndReplacesIt) {

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/temporary_folder.h"
+
 namespace eyrie::service {
 namespace {
 
@@ -50,6 +52,26 @@ TEST(DataPlaces, OfHalfARuleOrTwoForOneAreRefusedByName) {
     }
     const auto twice = DataPlaces::parse(std::vector<std::string>{"/a=/b", "/a=/c"});
     EXPECT_NE(twice.status().message().find("/a has a place already"), std::string::npos);
+}
+
+TEST(DataPlaces, FindTheLongestEndOfAPathInTheirFolder) {
+    const test::TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path("alps"));
+    for (const char* name : {"dem.eyt", "alps/dem.eyt", "scan.eym"}) folder.write(name, "");
+    DataPlaces places = parsed({"/data/scan.eym=/mnt/scan.eym"});
+    ASSERT_TRUE(places.lookIn(folder.path()).ok());
+    EXPECT_EQ(places.placed("/data/alps/dem.eyt"), folder.path("alps/dem.eyt"));
+    EXPECT_EQ(places.placed("/data/andes/dem.eyt"), folder.path("dem.eyt"));
+    EXPECT_EQ(places.placed("/data/alps"), "/data/alps") << "a folder";
+    EXPECT_EQ(places.placed("/data/alps/other.eyt"), "/data/alps/other.eyt");
+    EXPECT_EQ(places.placed("/data/scan.eym"), "/mnt/scan.eym") << "the rule is for it alone";
+    EXPECT_EQ(places.placed("https://a.example/dem.eyt"), "https://a.example/dem.eyt");
+}
+
+TEST(DataPlaces, LookInNothingThatIsNoFolder) {
+    const absl::Status status = DataPlaces().lookIn("/nowhere/at/all");
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_NE(status.message().find("/nowhere/at/all: is no folder"), std::string::npos);
 }
 
 }  // namespace

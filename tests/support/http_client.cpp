@@ -73,6 +73,14 @@ absl::StatusOr<HttpAnswer> ask(std::uint16_t port, const std::string& line, cons
                       text->substr(blank + 4)};
 }
 
+absl::StatusOr<HttpAnswer> sendJson(std::uint16_t port, const std::string& line,
+                                    const std::string& json, std::chrono::milliseconds limit) {
+    return ask(port, line,
+               fmt::format("Content-Type: application/json\r\nContent-Length: {}\r\n\r\n{}",
+                           json.size(), json),
+               limit);
+}
+
 }  // namespace
 
 absl::StatusOr<HttpAnswer> httpGet(std::uint16_t port, const std::string& target,
@@ -82,10 +90,12 @@ absl::StatusOr<HttpAnswer> httpGet(std::uint16_t port, const std::string& target
 
 absl::StatusOr<HttpAnswer> httpPatch(std::uint16_t port, const std::string& target,
                                      const std::string& json, std::chrono::milliseconds limit) {
-    return ask(port, "PATCH " + target,
-               fmt::format("Content-Type: application/json\r\nContent-Length: {}\r\n\r\n{}",
-                           json.size(), json),
-               limit);
+    return sendJson(port, "PATCH " + target, json, limit);
+}
+
+absl::StatusOr<HttpAnswer> httpPut(std::uint16_t port, const std::string& target,
+                                   const std::string& json, std::chrono::milliseconds limit) {
+    return sendJson(port, "PUT " + target, json, limit);
 }
 
 }  // namespace eyrie::test
