@@ -14,8 +14,8 @@
 #include "cli/bench/machine.h"
 #include "cli/bench/reference.h"
 #include "cli/bench/report.h"
-#include "cli/cache_options.h"
 #include "cli/commands.h"
+#include "cli/drawing_options.h"
 #include "cli/occlusion_option.h"
 #include "cli/renderer_processes.h"
 #include "cli/stop_signal.h"
@@ -230,7 +230,7 @@ void addBench(CLI::App& app, Run& run) {
     command->add_option("-o,--output", options->out, "Folder for the report, or the comparison")
         ->type_name("FOLDER");
     addCompareOptions(*command, *options);
-    addCacheOptions(*command, options->pictures.cache);
+    addDrawingOptions(*command, options->pictures.drawing);
     command->add_flag("--quiet", options->pictures.quiet, "Only errors");
     command->add_flag("--json", options->json, "Print the summary as JSON");
     command->add_flag("--progress-json", options->progressJson,

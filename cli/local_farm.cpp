@@ -18,27 +18,26 @@ constexpr std::chrono::milliseconds kPollInterval{10};
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<LocalFarm>> LocalFarm::start(coordinator::CoordinatorOptions options,
-                                                            const CacheOptions& cache,
-                                                            TileDecoding decoding) {
+                                                            const DrawingOptions& drawing) {
+    RETURN_IF_ERROR(rendererOptionsOf(drawing).status());  // said here, not by each of them
     ASSIGN_OR_RETURN(TemporaryFolder folder, TemporaryFolder::create());
     options.grpcAddresses.insert(options.grpcAddresses.begin(), folder.socket("coordinator"));
     ASSIGN_OR_RETURN(auto coordinator, coordinator::Coordinator::start(options));
     return std::unique_ptr<LocalFarm>(
-        new LocalFarm(std::move(folder), std::move(coordinator), cache, decoding));
+        new LocalFarm(std::move(folder), std::move(coordinator), drawing));
 }
 
 LocalFarm::LocalFarm(TemporaryFolder folder, std::unique_ptr<coordinator::Coordinator> coordinator,
-                     CacheOptions cache, TileDecoding decoding)
+                     DrawingOptions drawing)
     : folder_(std::move(folder)),
-      cache_(std::move(cache)),
-      decoding_(decoding),
+      drawing_(std::move(drawing)),
       coordinator_(std::move(coordinator)) {}
 
 void LocalFarm::startRenderers(int count) {
     started_ = count;
     renderers_ = std::make_unique<RendererProcesses>(
         RendererProcessesOptions{count, coordinator_->grpcAddresses().front(), hardwareDevices(),
-                                 cache_, decoding_},
+                                 drawing_},
         folder_);
 }
 

@@ -8,7 +8,7 @@
 
 #include <absl/status/statusor.h>
 
-#include "cli/cache_options.h"
+#include "cli/drawing_options.h"
 #include "cli/renderer_processes.h"
 #include "cli/temporary_folder.h"
 #include "coordinator/coordinator.h"
@@ -20,11 +20,10 @@ namespace eyrie::cli {
 class LocalFarm {
 public:
     /// Without renderers yet, and without a scene. The addresses of `options` are those besides
-    /// the folder's, and may be none; `cache` and `decoding` are the renderers'.
-    /// Errors: Unavailable.
+    /// the folder's, and may be none; `drawing` is the renderers'.
+    /// Errors: InvalidArgument (`drawing`), Unavailable.
     static absl::StatusOr<std::unique_ptr<LocalFarm>> start(coordinator::CoordinatorOptions options,
-                                                            const CacheOptions& cache,
-                                                            TileDecoding decoding);
+                                                            const DrawingOptions& drawing);
 
     coordinator::Coordinator& coordinator() { return *coordinator_; }
     coordinator::FrameSource& frames() { return coordinator_->frames(); }
@@ -46,14 +45,13 @@ public:
 
 private:
     LocalFarm(TemporaryFolder folder, std::unique_ptr<coordinator::Coordinator> coordinator,
-              CacheOptions cache, TileDecoding decoding);
+              DrawingOptions drawing);
 
     absl::Status checkEnough(int count, std::ptrdiff_t alive,
                              const coordinator::Status& status) const;
 
     TemporaryFolder folder_;
-    const CacheOptions cache_;
-    const TileDecoding decoding_;
+    const DrawingOptions drawing_;
     std::unique_ptr<coordinator::Coordinator> coordinator_;
     std::unique_ptr<RendererProcesses> renderers_;
     int started_ = 0;

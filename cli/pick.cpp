@@ -108,9 +108,9 @@ absl::Status pick(const Options& options) {
     ASSIGN_OR_RETURN(const fabric::SeenAreas areas, areasOf(options, request));
     ASSIGN_OR_RETURN(const std::optional<fabric::PickRequest> seen, fabric::pickIn(areas, request));
     ASSIGN_OR_RETURN(const fabric::Scene scene,
-                     loadScene(std::span(&options.scene, 1), options.source.cache,
+                     loadScene(std::span(&options.scene, 1), options.source.drawing.cache,
                                options.source.quiet, stop.token()));
-    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.source.cache));
+    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.source.drawing.cache));
     ASSIGN_OR_RETURN(
         const auto picker,
         pick::Picker::open(scene, page::sourceOptions(remote.cacheFolder, remote.cacheBytes)));
@@ -151,7 +151,7 @@ void addPick(CLI::App& app, Run& run) {
         ->capture_default_str();
     addConfigFile(*command, options->source.config);
     addScreenOptions(*command, options->source.config);
-    addCacheOptions(*command, options->source.cache);
+    addCacheOptions(*command, options->source.drawing.cache);
     command->add_flag("--quiet", options->source.quiet, "Only errors, beside the answer");
     command->add_flag("--json", options->json, "Print it as JSON; {} where nothing is");
     command->footer(

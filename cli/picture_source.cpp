@@ -108,9 +108,7 @@ private:
 
 absl::StatusOr<std::unique_ptr<PictureSource>> openHere(const fabric::Scene& scene,
                                                         const PictureSourceOptions& options) {
-    RendererOptions settings;
-    ASSIGN_OR_RETURN(settings.remote, remoteDataOf(options.cache));
-    settings.decoding = options.decoding;
+    ASSIGN_OR_RETURN(const RendererOptions settings, rendererOptionsOf(options.drawing));
     ASSIGN_OR_RETURN(auto renderer, Renderer::create(settings));
     ASSIGN_OR_RETURN(fabric::SceneInfo info, renderer->openScene(scene));
     return std::make_unique<InThisProcess>(std::move(renderer), std::move(info), scene.background);
@@ -126,8 +124,7 @@ absl::StatusOr<std::unique_ptr<PictureSource>> openInProcesses(
     settings.grpcAddresses = {};
     settings.configuration = std::move(configuration);
     settings.layout = compoundNames().at(options.config.compound);
-    ASSIGN_OR_RETURN(auto farm,
-                     LocalFarm::start(std::move(settings), options.cache, options.decoding));
+    ASSIGN_OR_RETURN(auto farm, LocalFarm::start(std::move(settings), options.drawing));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
     farm->startRenderers(renderers);
     RETURN_IF_ERROR(farm->awaitRenderers(renderers, kRenderersLimit, stop));
@@ -148,7 +145,7 @@ absl::StatusOr<std::unique_ptr<PictureSource>> PictureSource::open(
     spdlog::set_level(options.quiet ? spdlog::level::err : spdlog::level::warn);
     ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, options.quiet));
     ASSIGN_OR_RETURN(fabric::Scene scene,
-                     loadScene(std::span(&path, 1), options.cache, options.quiet, stop));
+                     loadScene(std::span(&path, 1), options.drawing.cache, options.quiet, stop));
     // An eye beside the camera, or a canvas, is what only a configuration has.
     const bool isPlain = options.config.shown == coordinator::Shown{};
     if (options.renderers == 0 && !configuration && isPlain)

@@ -7,8 +7,8 @@
 
 #include <absl/status/statusor.h>
 
-#include "cli/cache_options.h"
 #include "cli/config_options.h"
+#include "cli/drawing_options.h"
 #include "coordinator/frame/frame_source.h"
 #include "fabric/scene.h"
 
@@ -18,8 +18,7 @@ struct PictureSourceOptions {
     /// Processes that draw; 0: draw in this one, or, with a configuration, with as many as it uses.
     int renderers = 0;
     ConfigOptions config;
-    CacheOptions cache;
-    TileDecoding decoding = TileDecoding::Auto;
+    DrawingOptions drawing;
     bool quiet = false;  ///< only errors; otherwise progress and notes of imports, and warnings
 };
 

@@ -14,10 +14,9 @@
 
 #include "cli/all_pictures.h"
 #include "cli/bench/flights.h"
-#include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/config_options.h"
-#include "cli/decode_names.h"
+#include "cli/drawing_options.h"
 #include "cli/flight_video.h"
 #include "cli/image_files.h"
 #include "cli/occlusion_option.h"
@@ -376,8 +375,7 @@ void addRender(CLI::App& app, Run& run) {
                       "OUT.png becomes OUT.CANVAS.SEGMENT.png or, of stereo views, "
                       "OUT.CANVAS.SEGMENT.left.png and .right.png, each of --size (names, or "
                       "positions from 0 on where there are none); --depth likewise");
-    addDecodeOption(*command, options->pictures.decoding);
-    addCacheOptions(*command, options->pictures.cache);
+    addDrawingOptions(*command, options->pictures.drawing);
     addOutputOptions(*command, *options);
     command->footer(
         "docs/looks.md explains --look.\n"

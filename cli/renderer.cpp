@@ -6,10 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/cache_options.h"
 #include "cli/commands.h"
-#include "cli/decode_names.h"
 #include "cli/door_options.h"
+#include "cli/drawing_options.h"
 #include "cli/log.h"
 #include "cli/stop_signal.h"
 #include "cli/values.h"
@@ -26,14 +25,11 @@ struct Options {
     std::string coordinator;
     std::string listen = "127.0.0.1:0";
     std::string node;
-    std::string memory = "2G";
-    std::string hostMemory = "1G";
     int device = -1;
-    TileDecoding decoding = TileDecoding::Auto;
     std::vector<std::string> allowedUrls;
     std::string data;
     std::vector<std::string> dataAt;
-    CacheOptions cache;
+    DrawingOptions drawing;
     DoorOptions door;
     bool exitWithCoordinator = false;
     bool quiet = false;
@@ -47,15 +43,8 @@ absl::Status run(const Options& options) {
     RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.listen), "--listen"));
     ASSIGN_OR_RETURN(const Doors doors, doorsOf(options.door));
     RETURN_IF_ERROR(checkGrpcDoor(doors, options.listen, "--listen"));
-    ASSIGN_OR_RETURN(const std::uint64_t memory, parseBytes(options.memory, "--memory"));
-    ASSIGN_OR_RETURN(const std::uint64_t hostMemory,
-                     parseBytes(options.hostMemory, "--host-memory"));
-    RendererOptions settings;
+    ASSIGN_OR_RETURN(RendererOptions settings, rendererOptionsOf(options.drawing));
     settings.device = options.device;
-    settings.memoryBytes = memory;
-    settings.hostMemoryBytes = hostMemory;
-    settings.decoding = options.decoding;
-    ASSIGN_OR_RETURN(settings.remote, remoteDataOf(options.cache));
     auto places = service::DataPlaces::parse(options.dataAt);
     RETURN_IF_ERROR(fabric::withContext(places.status(), "--data-at"));
     if (!options.data.empty())
@@ -98,17 +87,6 @@ void addRenderer(CLI::App& app, Run& run) {
         ->check(CLI::Range(-1, 255))
         ->capture_default_str();
     command
-        ->add_option("--memory", options->memory,
-                     "Limit of geometry and textures kept on the device")
-        ->type_name("BYTES[K|M|G|T]")
-        ->capture_default_str();
-    command
-        ->add_option("--host-memory", options->hostMemory,
-                     "Limit of terrains' indices, 28 bytes a tile, and of pages kept in memory, "
-                     "those being read included")
-        ->type_name("BYTES[K|M|G|T]")
-        ->capture_default_str();
-    command
         ->add_option("--data", options->data,
                      "Folder in which this machine has the scenes' files: each is looked for there "
                      "first, by the longest end of its path that is found "
@@ -129,8 +107,7 @@ void addRenderer(CLI::App& app, Run& run) {
         ->allow_extra_args(false);
     addDoorOptions(*command, options->door);
     addPeerOptions(*command, options->door);
-    addDecodeOption(*command, options->decoding);
-    addCacheOptions(*command, options->cache);
+    addDrawingOptions(*command, options->drawing);
     command->add_flag("--exit-with-coordinator", options->exitWithCoordinator,
                       "End when the coordinator has gone, instead of waiting for it");
     command->add_flag("--quiet", options->quiet, "Only warnings and errors");

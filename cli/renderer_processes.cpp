@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "cli/child_process.h"
-#include "cli/decode_names.h"
 #include "cli/log.h"
 #include "cli/restart_policy.h"
 #include "fabric/log.h"
@@ -64,10 +63,9 @@ private:
             sockets_.socket(fmt::format("renderer-{}-{}", number_, generation_)),
             "--exit-with-coordinator",
             // Only their own coordinator reaches them, and its scenes are the user's.
-            "--allow-url", "any", "--cache-size", options_.cache.size, "--decode",
-            nameOf(options_.decoding), "--quiet"};
-        if (!options_.cache.folder.empty())
-            arguments.insert(arguments.end(), {"--cache", options_.cache.folder});
+            "--allow-url", "any", "--quiet"};
+        for (std::string& argument : argumentsOf(options_.drawing))
+            arguments.push_back(std::move(argument));
         for (std::string& argument : logArguments()) arguments.push_back(std::move(argument));
         if (!options_.devices.empty()) {
             const auto index = static_cast<std::size_t>(number_) % options_.devices.size();

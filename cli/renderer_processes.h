@@ -9,7 +9,7 @@
 
 #include <absl/status/status.h>
 
-#include "cli/cache_options.h"
+#include "cli/drawing_options.h"
 #include "cli/temporary_folder.h"
 
 namespace eyrie::cli {
@@ -18,8 +18,7 @@ struct RendererProcessesOptions {
     int count = 1;             ///< at first, 1 to RendererProcesses::kMaxCount
     std::string coordinator;   ///< where they register
     std::vector<int> devices;  ///< EGL devices, taken in turn; empty: each takes the first it finds
-    CacheOptions cache;
-    TileDecoding decoding = TileDecoding::Auto;
+    DrawingOptions drawing;
 };
 
 /// Renderer processes of this machine's own: `eyrie renderer` as children that share its cores,

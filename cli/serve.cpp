@@ -10,12 +10,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/compound_names.h"
 #include "cli/config_options.h"
-#include "cli/decode_names.h"
 #include "cli/door_options.h"
+#include "cli/drawing_options.h"
 #include "cli/hardware_devices.h"
 #include "cli/load_scene.h"
 #include "cli/local_farm.h"
@@ -42,8 +41,7 @@ struct Options {
     std::string listen = "127.0.0.1:8080";
     std::string grpc;  ///< empty: nowhere
     bool grpcReflection = false;
-    CacheOptions cache;
-    TileDecoding decoding = TileDecoding::Auto;
+    DrawingOptions drawing;
     ConfigOptions config;
     DoorOptions door;
     ProgramOptions programs;
@@ -142,15 +140,15 @@ absl::Status serve(const Options& options) {
     ASSIGN_OR_RETURN(const video::Module* video, videoModule(options.h264));
     ASSIGN_OR_RETURN(coordinator::CoordinatorOptions settings, settingsOf(options, doors));
     const RendererCount count(options.renderers, settings.configuration);
-    auto started = LocalFarm::start(std::move(settings), options.cache, options.decoding);
+    auto started = LocalFarm::start(std::move(settings), options.drawing);
     if (absl::IsUnavailable(started.status()) && !options.grpc.empty())
         return fabric::withContext(absl::InvalidArgumentError(started.status().message()),
                                    "--grpc");
     ASSIGN_OR_RETURN(const auto farm, std::move(started));
     ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, video,
                                                   options.quotas.crowd, farm->coordinator()));
-    ASSIGN_OR_RETURN(fabric::Scene scene,
-                     loadScene(options.data.names, options.cache, options.quiet, stop.token()));
+    ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options.data.names, options.drawing.cache,
+                                                    options.quiet, stop.token()));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
     const Shown shown = farm->frames().status().canvases;
     farm->startRenderers(count.of(shown));
@@ -200,8 +198,7 @@ void addServe(CLI::App& app, Run& run) {
     addDoorOptions(*command, options->door);
     addPeerOptions(*command, options->door);
     addVideoOption(*command, options->h264);
-    addDecodeOption(*command, options->decoding);
-    addCacheOptions(*command, options->cache);
+    addDrawingOptions(*command, options->drawing);
     command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");
     command->footer(
         "Examples:\n"

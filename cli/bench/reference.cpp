@@ -148,10 +148,11 @@ absl::StatusOr<ReferencePlan> planReference(const RunPlan& plan, const Reference
     reference.frames = options.frames;
     reference.judged = judgedFrames(judgedOf(plan, options.frames));
     ASSIGN_OR_RETURN(const ReferenceMemory memory, memoryOf(plan, options));
-    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(plan.pictures.cache));
+    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(plan.pictures.drawing.cache));
     reference.remote = page::sourceOptions(remote.cacheFolder, remote.cacheBytes);
-    ASSIGN_OR_RETURN(reference.scene, loadScene(std::span(&plan.scene, 1), plan.pictures.cache,
-                                                plan.pictures.quiet, stop));
+    ASSIGN_OR_RETURN(reference.scene,
+                     loadScene(std::span(&plan.scene, 1), plan.pictures.drawing.cache,
+                               plan.pictures.quiet, stop));
     ASSIGN_OR_RETURN(reference.sources,
                      findSources(reference.scene, options.sources, memory, reference.remote));
     return reference;

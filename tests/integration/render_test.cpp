@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From synthetic source to picture by the program alone: synth, import, info, render.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -87,11 +88,11 @@ protected:
     static Rendered render(const std::string& data, const std::string& camera,
                            const std::vector<std::string>& more = {}) {
         std::vector<std::string> arguments = {
-            "render",  path(data),      "--camera", camera,
-            "--size",  "1280x720",      "--tau",    "1",
-            "-o",      path("out.png"), "--depth",  path("out.pfm"),
-            "--stats", path("out.json")};
+            "render", path(data),      "--camera", camera,          "--size",  "1280x720",
+            "-o",     path("out.png"), "--depth",  path("out.pfm"), "--stats", path("out.json")};
         arguments.insert(arguments.end(), more.begin(), more.end());
+        if (std::ranges::find(more, "--tau") == more.end())
+            arguments.insert(arguments.end(), {"--tau", "1"});
         EXPECT_TRUE(succeeded(arguments));
         Rendered rendered;
         if (auto image = test::readPng(path("out.png")); image.ok())
@@ -220,6 +221,24 @@ TEST_F(Render, ATerrainOverSeveralRenderersIsThePictureOfOne) {
 
 TEST_F(Render, AMeshOverSeveralRenderersIsThePictureOfOne) {
     expectDecompositionsEqual("ball.eym", meshCamera());
+}
+
+/// Here and by other processes: what is left out is in the error that is promised.
+TEST_F(Render, LittleMemoryRaisesTheErrorThatIsPromised) {
+    for (const std::vector<std::string>& processes :
+         {std::vector<std::string>{}, {"--renderers", "1"}}) {
+        const auto fine = [&](const std::string& memory) {
+            std::vector<std::string> more = {"--tau", "0.1", "--memory", memory};
+            more.insert(more.end(), processes.begin(), processes.end());
+            return render("ball.eym", meshCamera(), more).statistics;
+        };
+        const JsonValue all = fine("1G");
+        const JsonValue few = fine("400K");
+        EXPECT_LE(number(all, "tauAchieved"), 0.1);
+        EXPECT_GT(number(few, "tauAchieved"), 0.1);
+        EXPECT_LT(number(few, "triangles"), number(all, "triangles") / 2);
+        EXPECT_TRUE(at(few, "complete").bool_value());
+    }
 }
 
 using HardCase28 = Render;
