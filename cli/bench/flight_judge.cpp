@@ -77,17 +77,17 @@ std::vector<fabric::Camera> FlightJudge::cameras() const {
     return cameras;
 }
 
-absl::StatusOr<FlightJudge::Expected> FlightJudge::expect(PictureSource& pictures,
+absl::StatusOr<FlightJudge::Expected> FlightJudge::expect(PictureSource& finest,
                                                           coordinator::FrameRequest request) const {
     request.tauPixels = std::min(kFinestTauPixels, request.tauPixels);
-    ASSIGN_OR_RETURN(coordinator::RenderedFrame finest, pictures.draw(request));
+    ASSIGN_OR_RETURN(coordinator::RenderedFrame drawn, finest.draw(request));
     return Expected{truth::castView(truth::Pinhole(request.camera, request.width, request.height),
                                     *reference_.surface),
-                    std::move(finest.image)};
+                    std::move(drawn.image), drawn.statistics.tauAchievedPixels};
 }
 
 absl::StatusOr<FlightJudge::Judged> FlightJudge::judge(
-    Frame& frame, coordinator::RenderedFrame drawn, PictureSource& pictures,
+    Frame& frame, coordinator::RenderedFrame drawn, PictureSource& finest,
     const coordinator::FrameRequest& request) const {
     const fabric::PixelViewport& area = drawn.image.area;
     if (drawn.image.depth.size() != static_cast<std::size_t>(area.area()))
@@ -100,11 +100,11 @@ absl::StatusOr<FlightJudge::Judged> FlightJudge::judge(
     expected.width = area.width;
     expected.height = area.height;
     if (area.width != how_.width || area.height != how_.height) {
-        ASSIGN_OR_RETURN(const Expected smaller, expect(pictures, expected));
+        ASSIGN_OR_RETURN(const Expected smaller, expect(finest, expected));
         return judge(frame, smaller, std::move(drawn), tauPixels);
     }
     if (!frame.expected) {
-        ASSIGN_OR_RETURN(frame.expected, expect(pictures, expected));
+        ASSIGN_OR_RETURN(frame.expected, expect(finest, expected));
     }
     return judge(frame, *frame.expected, std::move(drawn), tauPixels);
 }
@@ -115,6 +115,7 @@ FlightJudge::Judged FlightJudge::judge(const Frame& frame, const Expected& expec
     const std::vector<float> depth = fabric::depthMetres(drawn.image);
     const double promised = drawn.statistics.tauAchievedPixels;
     const double stretched = stretch(drawn.image.area, how_.width, how_.height);
+    const bool isCoarser = promised > tauPixels && promised > expected.finestPixels;
     ShownTriangles shown(reference_, camera,
                          lod::View(frame.camera, camera.width(), camera.height()), tauPixels,
                          remote_);
@@ -123,7 +124,7 @@ FlightJudge::Judged FlightJudge::judge(const Frame& frame, const Expected& expec
         expected.view, depth, edgePixels(promised, camera),
         {promised + kRasterPixels,
          [&](double x, double y, double metres) {
-             return drawn.statistics.complete ? shown.at(x, y, metres) : std::nullopt;
+             return drawn.statistics.complete && !isCoarser ? shown.at(x, y, metres) : std::nullopt;
          }},
         truth::LookAround::Farthest, &result.displacements);
     result.error = {.seconds = frame.seconds,
@@ -147,7 +148,7 @@ FlightJudge::Judged FlightJudge::judge(const Frame& frame, const Expected& expec
     return result;
 }
 
-absl::StatusOr<MeasuredErrors> FlightJudge::judge(PictureSource& pictures,
+absl::StatusOr<MeasuredErrors> FlightJudge::judge(PictureSource& pictures, PictureSource& finest,
                                                   coordinator::FrameRequest request,
                                                   const std::function<void()>& frameDone,
                                                   const std::stop_token& stop) {
@@ -155,21 +156,21 @@ absl::StatusOr<MeasuredErrors> FlightJudge::judge(PictureSource& pictures,
         asked.wantsDepth = true;
         return pictures.draw(asked);
     };
-    return judgeAll(draw, pictures, std::move(request), frameDone, stop);
+    return judgeAll(draw, finest, std::move(request), frameDone, stop);
 }
 
 absl::StatusOr<MeasuredErrors> FlightJudge::judge(std::vector<coordinator::RenderedFrame> shown,
-                                                  PictureSource& pictures,
+                                                  PictureSource& finest,
                                                   coordinator::FrameRequest request,
                                                   const std::function<void()>& frameDone,
                                                   const std::stop_token& stop) {
     const Draw draw = [&](std::size_t i, const coordinator::FrameRequest&) {
         return std::move(shown.at(i));
     };
-    return judgeAll(draw, pictures, std::move(request), frameDone, stop);
+    return judgeAll(draw, finest, std::move(request), frameDone, stop);
 }
 
-absl::StatusOr<MeasuredErrors> FlightJudge::judgeAll(const Draw& draw, PictureSource& pictures,
+absl::StatusOr<MeasuredErrors> FlightJudge::judgeAll(const Draw& draw, PictureSource& finest,
                                                      coordinator::FrameRequest request,
                                                      const std::function<void()>& frameDone,
                                                      const std::stop_token& stop) {
@@ -182,7 +183,7 @@ absl::StatusOr<MeasuredErrors> FlightJudge::judgeAll(const Draw& draw, PictureSo
         request.camera = frame.camera;
         const auto drawAndJudge = [&]() -> absl::StatusOr<Judged> {
             ASSIGN_OR_RETURN(coordinator::RenderedFrame drawn, draw(i, request));
-            return judge(frame, std::move(drawn), pictures, request);
+            return judge(frame, std::move(drawn), finest, request);
         };
         absl::StatusOr<Judged> judged = drawAndJudge();
         if (!judged.ok())

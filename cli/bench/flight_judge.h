@@ -48,18 +48,20 @@ public:
     FlightJudge(ReferenceScene reference, const fabric::Flight& flight, const JudgedFrames& frames,
                 page::SourceOptions remote);
 
-    /// Draws the frames by `pictures` as `request` says, and measures them. `frameDone` is called
-    /// after each. Errors: those of PictureSource::draw, naming the second; Cancelled.
-    absl::StatusOr<MeasuredErrors> judge(PictureSource& pictures, coordinator::FrameRequest request,
+    /// Draws the frames by `pictures` as `request` says, and measures them; by `finest` colours to
+    /// compare with. `frameDone` is called after each. Where memory makes a frame coarser than
+    /// asked for, nobody says which triangles it is made of: all of its pixels are judged by their
+    /// depths. Errors: those of PictureSource::draw, naming the second; Cancelled.
+    absl::StatusOr<MeasuredErrors> judge(PictureSource& pictures, PictureSource& finest,
+                                         coordinator::FrameRequest request,
                                          const std::function<void()>& frameDone,
                                          const std::stop_token& stop);
 
     /// The same of pictures that were shown when the flight was played, Played::kept of the frames
-    /// judgedFrames; `pictures` and `request` are for colours to compare with. Where one shows
-    /// coarser data in place of some that were not loaded, nobody says which triangles it is made
-    /// of: all of its pixels are judged by their depths.
+    /// judgedFrames; `request` is for `finest`. Those that show coarser data in place of some that
+    /// were not loaded are judged by their depths, too.
     absl::StatusOr<MeasuredErrors> judge(std::vector<coordinator::RenderedFrame> shown,
-                                         PictureSource& pictures, coordinator::FrameRequest request,
+                                         PictureSource& finest, coordinator::FrameRequest request,
                                          const std::function<void()>& frameDone,
                                          const std::stop_token& stop);
 
@@ -72,6 +74,7 @@ private:
     struct Expected {
         truth::ReferenceView view;
         fabric::Image finest;
+        double finestPixels;  ///< what that promises
     };
     struct Frame {
         double seconds = 0;
@@ -87,17 +90,16 @@ private:
     using Draw = std::function<absl::StatusOr<coordinator::RenderedFrame>(
         std::size_t, const coordinator::FrameRequest&)>;
 
-    absl::StatusOr<MeasuredErrors> judgeAll(const Draw& draw, PictureSource& pictures,
+    absl::StatusOr<MeasuredErrors> judgeAll(const Draw& draw, PictureSource& finest,
                                             coordinator::FrameRequest request,
                                             const std::function<void()>& frameDone,
                                             const std::stop_token& stop);
     absl::StatusOr<Judged> judge(Frame& frame, coordinator::RenderedFrame drawn,
-                                 PictureSource& pictures,
+                                 PictureSource& finest,
                                  const coordinator::FrameRequest& request) const;
     Judged judge(const Frame& frame, const Expected& expected, coordinator::RenderedFrame drawn,
                  double tauPixels) const;
-    absl::StatusOr<Expected> expect(PictureSource& pictures,
-                                    coordinator::FrameRequest request) const;
+    absl::StatusOr<Expected> expect(PictureSource& finest, coordinator::FrameRequest request) const;
 
     ReferenceScene reference_;
     JudgedFrames how_;

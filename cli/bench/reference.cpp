@@ -61,16 +61,34 @@ absl::StatusOr<FlightJudge> judgeFor(const ReferencePlan& reference, const RunPl
                        reference.remote);
 }
 
+/// What colours are compared with is drawn with the memory that renderers have by themselves, or
+/// more: nothing where the plan's have.
+absl::StatusOr<std::unique_ptr<PictureSource>> openFinest(const RunPlan& plan, int renderers,
+                                                          const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(const RendererOptions asked, rendererOptionsOf(plan.pictures.drawing));
+    const RendererOptions usual;
+    RunPlan finest = plan;
+    if (asked.memoryBytes < usual.memoryBytes)
+        finest.pictures.drawing.memory = DrawingOptions().memory;
+    if (asked.hostMemoryBytes < usual.hostMemoryBytes)
+        finest.pictures.drawing.hostMemory = DrawingOptions().hostMemory;
+    const bool isLimited =
+        asked.memoryBytes < usual.memoryBytes || asked.hostMemoryBytes < usual.hostMemoryBytes;
+    return isLimited ? open(finest, renderers, stop) : nullptr;
+}
+
 /// A tau draws the same again; what a frame time came to is in the pictures that were kept.
 absl::StatusOr<MeasuredErrors> measureRun(FlightJudge& judge, const RunPlan& plan, BenchRun& run,
                                           const std::function<void()>& frameDone,
                                           const std::stop_token& stop) {
     ASSIGN_OR_RETURN(const auto pictures, open(plan, run.renderers, stop));
+    ASSIGN_OR_RETURN(const auto unlimited, openFinest(plan, run.renderers, stop));
+    PictureSource& finest = unlimited ? *unlimited : *pictures;
     coordinator::FrameRequest request = plan.play.request;
     request.tauPixels = run.tauPixels;
     if (run.budgetMilliseconds > 0)
-        return judge.judge(std::exchange(run.played.kept, {}), *pictures, request, frameDone, stop);
-    return judge.judge(*pictures, request, frameDone, stop);
+        return judge.judge(std::exchange(run.played.kept, {}), finest, request, frameDone, stop);
+    return judge.judge(*pictures, finest, request, frameDone, stop);
 }
 
 absl::Status checkCompared(const std::vector<BenchRun>& runs) {

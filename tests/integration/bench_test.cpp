@@ -143,6 +143,35 @@ TEST_F(Bench, MeasuresWhatASceneShowsAgainstItsSources) {
     EXPECT_GE(test::list(summary, "uniform").size(), 1U);
 }
 
+/// What does not fit is left out and promised, and colours are compared with what would be there.
+TEST_F(Bench, WithLittleMemoryPromisesMoreAndKeepsIt) {
+    ASSERT_TRUE(
+        succeeded({"synth", "terrain", "--size", "257", "--seed", "4", "-o", path("few.tif")}));
+    ASSERT_TRUE(succeeded({"import", "terrain", path("few.tif"), "-o", path("few.eyt")}));
+    ASSERT_TRUE(
+        succeeded({"synth", "mesh", "--size", "30000", "--seed", "4", "-o", path("few.ply")}));
+    ASSERT_TRUE(succeeded({"import", "mesh", path("few.ply"), "-o", path("few.eym")}));
+    for (const auto& [data, flight] : {std::pair("few.eyt", "worst"), {"few.eym", "orbit"}}) {
+        SCOPED_TRACE(data);
+        const auto runWith = [&](const std::string& memory) {
+            const std::string report = path("few");
+            EXPECT_TRUE(
+                succeeded({"bench", path(data), "--flight", flight, "--tau", "0.25", "--size",
+                           "320x180", "--frames", "8", "--repeats", "1", "--reference",
+                           "--reference-frames", "8", "--memory", memory, "-o", report}));
+            return test::list(summaryOf(report), "runs").at(0);
+        };
+        const test::JsonValue all = runWith("1G");
+        const test::JsonValue few = runWith("400K");
+        EXPECT_LE(number(all, "tauAchievedMax"), 0.25);
+        EXPECT_GT(number(few, "tauAchievedMax"), 0.25);
+        EXPECT_LT(number(few, "trianglesMean"), number(all, "trianglesMean"));
+        EXPECT_GT(number(few, "errorPx.max"), number(all, "errorPx.max"));
+        EXPECT_TRUE(test::at(few, "measuredWithinPromise").bool_value());
+        EXPECT_LT(number(few, "psnrDb"), 60);
+    }
+}
+
 TEST_F(Bench, PlaysCameraPathsOfOlderProgramsAndSaysWhatItAssumed) {
     std::ofstream(path("path.txt")) << "-90 0 0\n1 0 0 -2  0 30 0\n60 0.2 0 -1.5  0 30 0\n";
     const test::Outcome outcome =
