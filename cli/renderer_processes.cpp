@@ -63,7 +63,9 @@ private:
             sockets_.socket(fmt::format("renderer-{}-{}", number_, generation_)),
             "--exit-with-coordinator",
             // Only their own coordinator reaches them, and its scenes are the user's.
-            "--allow-url", "any", "--quiet"};
+            "--allow-url", "any",
+            // EYRIE_DATA is the coordinator's folder, and files are where that has them.
+            "--data", "", "--quiet"};
         for (std::string& argument : argumentsOf(options_.drawing))
             arguments.push_back(std::move(argument));
         for (std::string& argument : logArguments()) arguments.push_back(std::move(argument));

@@ -13,6 +13,7 @@
 #include <signal.h>
 
 #include "tests/support/http_client.h"
+#include "tests/support/json.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/viewer_client.h"
@@ -36,10 +37,10 @@ protected:
         std::vector<std::string> arguments{"serve", "--listen", listen};
         arguments.insert(arguments.end(), data_.begin(), data_.end());
         arguments.insert(arguments.end(), how.begin(), how.end());
-        server_ = std::make_unique<test::Process>(
-            test::eyrieCommand(arguments),
-            std::vector<std::string>{"TMPDIR=" + folder_.path("tmp"),
-                                     "XDG_CACHE_HOME=" + folder_.path("cache")});
+        std::vector<std::string> environment{"TMPDIR=" + folder_.path("tmp"),
+                                             "XDG_CACHE_HOME=" + folder_.path("cache")};
+        environment.insert(environment.end(), environment_.begin(), environment_.end());
+        server_ = std::make_unique<test::Process>(test::eyrieCommand(arguments), environment);
     }
 
     void startAndWait(const std::vector<std::string>& how = {"--renderers", "2"}) {
@@ -72,6 +73,13 @@ protected:
             test::httpPatch(port_, "/api/v1/configuration",
                             R"({"layouts":[{"canvas":"0","layout":")" + layout + R"("}]})");
         ASSERT_TRUE(answer.ok() && answer->status == 200) << server_->errors();
+    }
+
+    void makeBall(int triangles, const std::string& name) const {
+        const std::string source = folder_.path("ball.ply");
+        ASSERT_TRUE(test::succeeded(
+            {"synth", "mesh", "--size", fmt::format("{}", triangles), "-o", source}));
+        ASSERT_TRUE(test::succeeded({"import", "mesh", source, "-o", name}));
     }
 
     int httpStatus(const std::string& target) const {
@@ -156,6 +164,7 @@ protected:
     }
 
     std::vector<std::string> data_{EYRIE_SOURCE_DIR "/demo/scene.json"};
+    std::vector<std::string> environment_;
     test::TemporaryFolder folder_;
     std::unique_ptr<test::Process> server_;
     std::uint16_t port_ = 0;
@@ -191,9 +200,7 @@ TEST_F(Serve, AnswersAndEndsWithoutATraceOnATermination) {
 TEST_F(Serve, ShowsWhatProgramsSetWhereNoDataIsNamed) {
     const std::string data = folder_.path("data");
     std::filesystem::create_directory(data);
-    ASSERT_TRUE(test::succeeded({"synth", "mesh", "--size", "1000", "-o", folder_.path("b.ply")}));
-    ASSERT_TRUE(
-        test::succeeded({"import", "mesh", folder_.path("b.ply"), "-o", data + "/ball.eym"}));
+    makeBall(1000, data + "/ball.eym");
     data_.clear();
     startAndWait({"--renderers", "auto", "--data", data});
     EXPECT_NE(server_->errors().find("no data is named"), std::string::npos) << server_->errors();
@@ -205,6 +212,20 @@ TEST_F(Serve, ShowsWhatProgramsSetWhereNoDataIsNamed) {
     ASSERT_TRUE(set.ok() && set->status == 200) << server_->errors();
     EXPECT_TRUE(test::eventually(seconds(30), [&] { return httpStatus("/readyz") == 200; }));
     EXPECT_EQ(httpStatus("/api/v1/image?width=64&height=36"), 200);
+}
+
+/// EYRIE_DATA is an option of renderers, too.
+TEST_F(Serve, ShowsWhatIsNamedAndNotWhatTheDataFolderHasOfThatName) {
+    std::filesystem::create_directory(folder_.path("data"));
+    makeBall(1000, folder_.path("data/ball.eym"));
+    makeBall(2000, folder_.path("ball.eym"));
+    data_ = {folder_.path("ball.eym")};
+    environment_ = {"EYRIE_DATA=" + folder_.path("data")};
+    startAndWait();
+    ASSERT_TRUE(test::eventually(seconds(30), [&] { return httpStatus("/readyz") == 200; }));
+    const auto state = test::httpGet(port_, "/readyz");
+    ASSERT_TRUE(state.ok());
+    EXPECT_GT(test::number(test::parseJson(state->body), "scene.triangles"), 1500) << state->body;
 }
 
 TEST_F(Serve, GoesOnWhenARendererIsKilledAndReplacesIt) {
