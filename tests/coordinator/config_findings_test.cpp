@@ -38,8 +38,10 @@ TEST(EqcErrors, NameWhatIsOpenClosedOrStray) {
     EXPECT_THAT(firstError("config { /* x */ }"), HasSubstr("comments begin with # or //"));
     EXPECT_THAT(firstError("config { latency }"), HasSubstr("1:10 'latency' has no value"));
     EXPECT_THAT(firstError("config { { } }"), HasSubstr("'{' belongs to no keyword"));
-    EXPECT_THAT(firstError("config { layout { view { viewport [ 0 0 1 } } }"),
-                HasSubstr("expected [ x y width height ]"));
+    EXPECT_THAT(firstError("config { layout { view { viewport [ 0 0 1 1 } } }"),
+                HasSubstr("1:45 '}' within [ ]: is a ']' missing?"));
+    EXPECT_THAT(firstError("config { compound { channel ( segment [ 0 ) } }"),
+                HasSubstr("1:43 ')' within [ ]: is a ']' missing?"));
     EXPECT_THAT(firstError(""), HasSubstr("there is no config"));
     EXPECT_THAT(firstError("\n #Equalizer 2.0 ascii\nconfig {}"), HasSubstr("2:2 the file is of "
                                                                             "version 2.0"));
