@@ -9,9 +9,11 @@
 #include <fmt/format.h>
 
 #include "coordinator/config/destinations.h"
+#include "coordinator/config/lost_depth.h"
 #include "coordinator/config/phases.h"
 #include "coordinator/config/pixels.h"
 #include "coordinator/config/queue_names.h"
+#include "coordinator/config/unseen.h"
 
 namespace eyrie::config {
 namespace {
@@ -73,12 +75,15 @@ public:
             visit(root, nullptr);
             matchFrames(first);
             warnOfUnshown(root, first);
-            warnOfQueueNames(std::span(resolved_.compounds).subspan(first), findings_);
+            const auto tree = std::span(resolved_.compounds).subspan(first);
+            warnOfQueueNames(tree, findings_);
+            warnOfLostDepth(tree, findings_);
         }
         for (std::size_t i = 0; i < served_.size(); ++i)
             if (!served_[i])
                 addImplicit(i);
         warnOfMissingPhases(resolved_, findings_);
+        warnOfUnseen(resolved_, findings_);
         return std::move(resolved_);
     }
 

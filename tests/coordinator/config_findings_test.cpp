@@ -321,6 +321,46 @@ TEST(EqcWarnings, SayInWhichFramesNothingIsDrawn) {
               "");
 }
 
+TEST(EqcWarnings, SayWhereCompoundsMakeNothingOfWhatTheViewShows) {
+    const auto found = [](const std::string& compound) {
+        return describe(
+            Read(withCompounds("\ncompound { channel ( segment 0 view 0 ) " + compound + " }"))
+                .findings,
+            "f");
+    };
+    const std::string background =
+        "f:2:1: warning: no compound draws or assembles what the view shows, that of the eye "
+        "CYCLOP: it is background\n";
+    EXPECT_EQ(found("eye [ LEFT RIGHT ]"), background);
+    EXPECT_EQ(found("compound { eye [ LEFT ] } compound { eye [ RIGHT ] }"), background);
+    EXPECT_EQ(found("task [ CLEAR ]"), background);
+    EXPECT_EQ(found("eye [ LEFT CYCLOP ]"), "");
+    EXPECT_EQ(found("compound { eye [ LEFT ] } compound { eye [ CYCLOP ] }"), "");
+}
+
+TEST(EqcWarnings, SayWherePartsOfTheDataComeWithoutDepth) {
+    const auto found = [](const std::string& above, const std::string& part,
+                          const std::string& frame) {
+        return describe(Read(withCompounds("compound { channel ( segment 0 view 0 ) " + above +
+                                           " compound {} compound { channel \"b\" " + part +
+                                           "\noutputframe { name \"f\" " + frame +
+                                           " } } inputframe { name \"f\" } }"))
+                            .findings,
+                        "f");
+    };
+    const std::string noDepth =
+        "f:2:1: warning: the outputframe has a part of the data and no DEPTH, so it covers what is "
+        "nearer; buffer [ COLOR DEPTH ] compares them\n";
+    EXPECT_EQ(found("", "range [ .5 1 ]", ""), noDepth);
+    EXPECT_EQ(found("buffer [ COLOR DEPTH ]", "range [ .5 1 ]", "buffer [ COLOR ]"), noDepth);
+    EXPECT_EQ(found("load_equalizer { mode DB }", "", ""), noDepth);
+    EXPECT_EQ(found("tile_equalizer { size .1 }", "", ""), noDepth);
+    EXPECT_EQ(found("buffer [ COLOR DEPTH ] load_equalizer { mode DB }", "", ""), "");
+    EXPECT_EQ(found("load_equalizer { mode 2D }", "", ""), "");
+    EXPECT_EQ(found("tile_equalizer {}", "", ""), "");
+    EXPECT_EQ(found("", "range [ .5 1 ]", "buffer [ COLOR DEPTH ]"), "");
+}
+
 TEST(EqcWarnings, NameBothPlacesOfANameThatTwoThingsHave) {
     const Read read(
         "config {\n node { name \"n\" pipe { name \"p\" window { channel { name \"c\" }\n"
