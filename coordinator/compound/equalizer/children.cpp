@@ -71,8 +71,8 @@ void Children::give(Turn& turn, SplitMode mode, double width, double height,
     for (std::size_t i = 0; i < positions_.size(); ++i) {
         config::Compound& child = *turn.live[positions_[i]];
         const Area& part = parts[i];
-        child.viewport = written_[i].viewport;
-        child.range = written_[i].range;
+        child.viewport = {};
+        child.range = {};
         if (mode == SplitMode::Db)
             child.range = {part.x / width, part.xEnd / width};
         else
