@@ -7,18 +7,18 @@
 namespace eyrie::config {
 namespace {
 
-/// Whether it leaves its children parts of the data while frames are drawn.
-bool dividesData(const Compound& compound) {
-    const auto divides = [](const Equalizer& each) {
-        return each.kind == EqualizerKind::Tile ? each.tileChunk.has_value()
-                                                : each.mode == SplitMode::Db;
-    };
+bool dividesItsData(const Compound& compound) {
     const auto areChunks = [](const Tiles& each) { return each.chunk.has_value(); };
-    return std::ranges::any_of(compound.equalizers, divides) ||
+    return std::ranges::any_of(compound.equalizers, dividesData) ||
            std::ranges::any_of(compound.outputTiles, areChunks);
 }
 
 }  // namespace
+
+bool dividesData(const Equalizer& equalizer) {
+    return equalizer.kind == EqualizerKind::Tile ? equalizer.tileChunk.has_value()
+                                                 : equalizer.mode == SplitMode::Db;
+}
 
 void warnOfLostDepth(std::span<const ResolvedCompound> tree, Findings& findings) {
     std::vector<bool> isDivided;  // by the compounds above and at each level
@@ -26,7 +26,7 @@ void warnOfLostDepth(std::span<const ResolvedCompound> tree, Findings& findings)
         isDivided.resize(static_cast<std::size_t>(each.depth));
         const bool isPart =
             each.range != fabric::Range{} || std::ranges::find(isDivided, true) != isDivided.end();
-        isDivided.push_back(dividesData(*each.compound));
+        isDivided.push_back(dividesItsData(*each.compound));
         if (!isPart || !each.tasks.readback)
             continue;
         for (const ResolvedFrame& frame : each.outputFrames)

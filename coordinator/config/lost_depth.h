@@ -8,6 +8,9 @@
 
 namespace eyrie::config {
 
+/// Whether it leaves its compound's children parts of the data while frames are drawn.
+bool dividesData(const Equalizer& equalizer);
+
 /// Warns of output frames without depth that have a part of the data only: they come over all that
 /// others have drawn, also over what is nearer.
 void warnOfLostDepth(std::span<const ResolvedCompound> tree, Findings& findings);
