@@ -227,6 +227,7 @@ private:
             own.inputFrames.push_back({nameOf(frame), false, &frame});
         own.tasks = tasksOf(compound, own);
         warnOfUnusedFrames(compound);
+        warnOfIdleEqualizers(compound, own);
         if (own.tasks.draw)
             addSights(own);
     }
@@ -284,6 +285,19 @@ private:
         if (compound.tasks && !compound.tasks->readback)
             warn(compound.outputFrames,
                  "the compound's task has no READBACK: the outputframe stays empty");
+    }
+
+    /// A view equalizer is for several pictures, these are for one.
+    void warnOfIdleEqualizers(const Compound& compound, const ResolvedCompound& own) {
+        const auto sharesOnePicture = [](EqualizerKind kind) {
+            return kind == EqualizerKind::Load || kind == EqualizerKind::Tree ||
+                   kind == EqualizerKind::Tile || kind == EqualizerKind::Dfr;
+        };
+        for (const Equalizer& each : compound.equalizers)
+            if (!own.destination && sharesOnePicture(each.kind))
+                findings_.warning(each.place,
+                                  "the equalizer has no effect: its compound is no part of a "
+                                  "view's picture, as with channel ( segment 0 view 0 )");
     }
 
     bool isChannelOfAncestor(const ResolvedCompound& own) const {

@@ -361,6 +361,22 @@ TEST(EqcWarnings, SayWherePartsOfTheDataComeWithoutDepth) {
     EXPECT_EQ(found("", "range [ .5 1 ]", "buffer [ COLOR DEPTH ]"), "");
 }
 
+TEST(EqcWarnings, SayWhichEqualizersHaveNoPictureToShareOut) {
+    const auto found = [](const std::string& equalizer) {
+        return describe(
+            Read(withCompounds("compound {\n" + equalizer +
+                               " {} compound { channel ( segment 0 view 0 ) compound {} } }"))
+                .findings,
+            "f");
+    };
+    for (const char* equalizer :
+         {"load_equalizer", "tree_equalizer", "tile_equalizer", "DFR_equalizer"})
+        EXPECT_EQ(found(equalizer),
+                  "f:2:1: warning: the equalizer has no effect: its compound is no part of a "
+                  "view's picture, as with channel ( segment 0 view 0 )\n");
+    EXPECT_EQ(found("view_equalizer"), "");
+}
+
 TEST(EqcWarnings, NameBothPlacesOfANameThatTwoThingsHave) {
     const Read read(
         "config {\n node { name \"n\" pipe { name \"p\" window { channel { name \"c\" }\n"

@@ -255,6 +255,18 @@ TEST(Equalizers, ShareOutAllThereIsWhateverIsWritten) {
         }
 }
 
+TEST(Equalizers, LeaveDestinationsTheirWholePictures) {
+    for (const char* kind : {"load_equalizer", "tree_equalizer"})
+        for (const char* mode : {"2D", "DB"}) {
+            Balanced balanced(configurationOf(
+                1, fmt::format("compound {{ {} {{ mode {} }} compound {{ channel ( segment 0 view "
+                               "0 ) }} compound {{ channel \"s1\" }} }}",
+                               kind, mode)));
+            balanced.apply();
+            EXPECT_DOUBLE_EQ(even(balanced.at(1)), 100) << kind << mode;
+        }
+}
+
 TEST(Equalizers, StayAsTheyAreWhileFrozen) {
     for (const char* kind : {"load_equalizer", "tree_equalizer"}) {
         Balanced balanced(

@@ -103,6 +103,8 @@ void Children::giveAsWritten(Turn& turn, SplitMode mode) const {
 
 std::optional<Whole> wholeOf(const config::ResolvedCompound& compound,
                              const config::Equalizer& settings) {
+    if (compound.pixelViewport.isEmpty())
+        return std::nullopt;
     Whole whole;
     SplitRules& rules = whole.rules;
     rules.axes = axesOf(settings.mode);
@@ -113,8 +115,6 @@ std::optional<Whole> wholeOf(const config::ResolvedCompound& compound,
         rules.resistanceX = settings.resistanceRange.value_or(0);
         return whole;
     }
-    if (compound.pixelViewport.isEmpty())
-        return std::nullopt;
     whole.width = compound.pixelViewport.width;
     whole.height = compound.pixelViewport.height;
     const fabric::Vec2 boundary = settings.boundaryPixels.value_or(fabric::Vec2(1, 1));

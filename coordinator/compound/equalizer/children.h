@@ -47,7 +47,8 @@ struct Whole {
     double height = 1;
     SplitRules rules;
 };
-/// Nothing while the picture has no pixels.
+/// Nothing while the picture has no pixels, as of groups of destinations, which have none of their
+/// own.
 std::optional<Whole> wholeOf(const config::ResolvedCompound& compound,
                              const config::Equalizer& settings);
 
