@@ -13,6 +13,7 @@
 #include "coordinator/config/phases.h"
 #include "coordinator/config/pixels.h"
 #include "coordinator/config/queue_names.h"
+#include "coordinator/config/torn_pictures.h"
 #include "coordinator/config/unseen.h"
 
 namespace eyrie::config {
@@ -78,6 +79,7 @@ public:
             const auto tree = std::span(resolved_.compounds).subspan(first);
             warnOfQueueNames(tree, findings_);
             warnOfLostDepth(tree, findings_);
+            warnOfTornPictures(tree, findings_);
         }
         for (std::size_t i = 0; i < served_.size(); ++i)
             if (!served_[i])

@@ -377,6 +377,25 @@ TEST(EqcWarnings, SayWhichEqualizersHaveNoPictureToShareOut) {
     EXPECT_EQ(found("view_equalizer"), "");
 }
 
+TEST(EqcWarnings, SayWhereAnEqualizerTearsPicturesOfSeveralEyesOrPhases) {
+    const auto found = [](const std::string& equalizer, const std::string& first,
+                          const std::string& second) {
+        return describe(
+            Read(withCompounds("compound { channel ( segment 0 view 0 )\n" + equalizer +
+                               " {} compound { " + first + " } compound { " + second + " } }"))
+                .findings,
+            "f");
+    };
+    for (const char* equalizer : {"load_equalizer", "tree_equalizer"}) {
+        EXPECT_THAT(found(equalizer, "period 2 phase 0", "period 2 phase 1"),
+                    HasSubstr("f:2:1: warning: the equalizer shares out one picture, but its "
+                              "children draw for other eyes or in other frames"));
+        EXPECT_EQ(found(equalizer, "", ""), "");
+        EXPECT_EQ(found(equalizer, "", "task [ CLEAR ] period 2 phase 1"), "");
+    }
+    EXPECT_EQ(found("framerate_equalizer", "period 2 phase 0", "period 2 phase 1"), "");
+}
+
 TEST(EqcWarnings, NameBothPlacesOfANameThatTwoThingsHave) {
     const Read read(
         "config {\n node { name \"n\" pipe { name \"p\" window { channel { name \"c\" }\n"
