@@ -56,6 +56,7 @@ public:
 
     Events& events() { return events_; }
     bool hasDrawn() const { return hasDrawn_; }
+    bool fetchesTiles() const { return fetchesTiles_; }
     double bytes() const { return bytes_; }
     double processorMilliseconds() const {
         double sum = 0;
@@ -110,8 +111,12 @@ private:
         return !layouts.empty() && layouts.front() == index.layout;
     }
 
+    /// Each has a picture of its own.
+    static int eyes(const Compound& compound) {
+        return int{compound.eyes.cyclop} + int{compound.eyes.left} + int{compound.eyes.right};
+    }
     static double megapixels(const Compound& compound) {
-        return static_cast<double>(compound.pixelViewport.area()) / kMillion;
+        return eyes(compound) * static_cast<double>(compound.pixelViewport.area()) / kMillion;
     }
     static double sizes(bool hasDepth) { return hasDepth ? 2 : 1; }
 
@@ -181,12 +186,14 @@ private:
 
     void draw(const Compound& compound) {
         hasDrawn_ = true;
+        fetchesTiles_ = fetchesTiles_ ||
+                        (compound.compound != nullptr && !compound.compound->inputTiles.empty());
         const auto met = [&](double share) { return share + costs_.overlap * (1 - share); };
         const double range = compound.range.end - compound.range.begin;
         const double millions = triangles_ / kMillion * range * met(compound.viewport.width) *
                                 met(compound.viewport.height);
         compute(placeOf(compound),
-                costs_.taskMs + costs_.millionTrianglesMs * millions +
+                eyes(compound) * (costs_.taskMs + costs_.millionTrianglesMs * millions) +
                     costs_.megapixelMs * megapixels(compound) * range,
                 costs_.threads);
     }
@@ -250,6 +257,7 @@ private:
     std::vector<Arrival> arrivals_;
     double bytes_ = 0;
     bool hasDrawn_ = false;
+    bool fetchesTiles_ = false;
 };
 
 std::int64_t longestPeriod(const config::ResolvedConfiguration& resolved) {
@@ -283,6 +291,10 @@ absl::StatusOr<Prediction> predict(const config::Configuration& configuration, c
     }
     if (!farm.hasDrawn())
         return absl::InvalidArgumentError("the configuration draws nothing");
+    if (farm.fetchesTiles())
+        return absl::InvalidArgumentError(
+            "which renderers fetch how many tiles is not predicted; give compounds a viewport or a "
+            "range each, in place of tile_equalizer and inputtiles");
     if (!farm.events().run())
         return absl::InvalidArgumentError("frames of the configuration wait for each other");
     const auto done = [&](std::size_t i) { return farm.events().doneAt(frames[i].done); };

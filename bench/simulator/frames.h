@@ -23,8 +23,8 @@ struct Prediction {
 ///
 /// Triangles of a part are those of all LOD nodes that it meets: of a share w of a side of the
 /// picture, w + overlap (1 - w) of that side's (after Molnar, Cox, Ellsworth, Fuchs: "A Sorting
-/// Classification of Parallel Rendering", 1994). Errors: InvalidArgument: nothing is drawn, or
-/// frames wait for each other.
+/// Classification of Parallel Rendering", 1994). Errors: InvalidArgument: nothing is drawn,
+/// frames wait for each other, or renderers fetch tiles.
 absl::StatusOr<Prediction> predict(const config::Configuration& configuration, const Costs& costs,
                                    const Machines& machines, double triangles);
 

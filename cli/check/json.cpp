@@ -65,13 +65,10 @@ JsonObject nodeJson(const config::Node& node) {
         for (const config::Window& window : pipe.windows) windows.push_back(windowJson(window));
         pipes.push_back(json.objects("windows", windows));
     }
-    std::vector<std::string> hosts;
-    for (const config::Connection& connection : node.connections)
-        hosts.push_back(connection.hostname);
     return JsonObject()
         .text("name", node.name)
         .flag("isApplication", node.isApplication)
-        .texts("hosts", hosts)
+        .texts("hosts", hostsOf(node))
         .objects("pipes", pipes);
 }
 

@@ -41,8 +41,7 @@ std::string resources(const Configuration& configuration) {
         const config::Node& node = configuration.nodes[i];
         text +=
             fmt::format("  {} {}", node.isApplication ? "appNode" : "node", called(node.name, i));
-        for (const config::Connection& connection : node.connections)
-            text += connection.hostname.empty() ? "" : fmt::format(", {}", connection.hostname);
+        for (const std::string& host : hostsOf(node)) text += ", " + host;
         text += "\n";
         for (std::size_t j = 0; j < node.pipes.size(); ++j) {
             const config::Pipe& pipe = node.pipes[j];

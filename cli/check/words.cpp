@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/check/words.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace eyrie::cli::check {
@@ -61,6 +63,17 @@ std::string_view word(config::EyeSight::Eye eye) {
 
 std::string called(const std::string& name, std::size_t position) {
     return name.empty() ? fmt::format("{}", position) : fmt::format("\"{}\"", name);
+}
+
+std::vector<std::string> hostsOf(const config::Node& node) {
+    std::vector<std::string> hosts;
+    const auto add = [&hosts](const std::string& host) {
+        if (!host.empty() && std::ranges::find(hosts, host) == hosts.end())
+            hosts.push_back(host);
+    };
+    add(node.host);
+    for (const config::Connection& connection : node.connections) add(connection.hostname);
+    return hosts;
 }
 
 const config::Channel& channelOf(const config::Configuration& configuration,

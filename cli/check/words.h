@@ -20,6 +20,9 @@ std::string_view word(config::EyeSight::Eye eye);
 /// "name", or its position where it has none.
 std::string called(const std::string& name, std::size_t position);
 
+/// Where a node is, each once: its host, by which renderers find it, then those of its connections.
+std::vector<std::string> hostsOf(const config::Node& node);
+
 const config::Channel& channelOf(const config::Configuration& configuration,
                                  const config::ChannelIndex& index);
 /// Names from the node on, where they have none positions, such as appNode/0/window1/channel1.

@@ -81,10 +81,7 @@ public:
     }
 
     void open(Form form, char sign, const Place& place) {
-        if (isInList_) {
-            findings_.error(place, fmt::format("'{}' within [ ]: is a ']' missing?", sign));
-            isInList_ = false;
-        }
+        endOpenList(sign, place);
         if (form == Form::List ? isIgnored() : isIgnored() || open_.size() == kMostNesting) {
             if (form != Form::List && ignored_++ == 0 && count_ <= kMostStatements)
                 tooDeep(form, place);
@@ -112,7 +109,7 @@ public:
             isInList_ = false;
             return;
         }
-        isInList_ = false;
+        endOpenList(sign, place);
         if (ignored_ > 0) {
             --ignored_;
             return;
@@ -161,6 +158,11 @@ private:
         Place place;
     };
 
+    /// Before what has no place in a list.
+    void endOpenList(char sign, const Place& place) {
+        if (std::exchange(isInList_, false))
+            findings_.error(place, fmt::format("'{}' within [ ]: is a ']' missing?", sign));
+    }
     bool isIgnored() const { return ignored_ > 0 || count_ > kMostStatements; }
     void tooMany(const Place& place) {
         findings_.error(place, fmt::format("more than {} statements", kMostStatements));

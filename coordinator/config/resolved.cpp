@@ -9,9 +9,12 @@
 #include <fmt/format.h>
 
 #include "coordinator/config/destinations.h"
+#include "coordinator/config/lost_depth.h"
 #include "coordinator/config/phases.h"
 #include "coordinator/config/pixels.h"
 #include "coordinator/config/queue_names.h"
+#include "coordinator/config/torn_pictures.h"
+#include "coordinator/config/unseen.h"
 
 namespace eyrie::config {
 namespace {
@@ -73,12 +76,16 @@ public:
             visit(root, nullptr);
             matchFrames(first);
             warnOfUnshown(root, first);
-            warnOfQueueNames(std::span(resolved_.compounds).subspan(first), findings_);
+            const auto tree = std::span(resolved_.compounds).subspan(first);
+            warnOfQueueNames(tree, findings_);
+            warnOfLostDepth(tree, findings_);
+            warnOfTornPictures(tree, findings_);
         }
         for (std::size_t i = 0; i < served_.size(); ++i)
             if (!served_[i])
                 addImplicit(i);
         warnOfMissingPhases(resolved_, findings_);
+        warnOfUnseen(resolved_, findings_);
         return std::move(resolved_);
     }
 
@@ -222,6 +229,7 @@ private:
             own.inputFrames.push_back({nameOf(frame), false, &frame});
         own.tasks = tasksOf(compound, own);
         warnOfUnusedFrames(compound);
+        warnOfIdleEqualizers(compound, own);
         if (own.tasks.draw)
             addSights(own);
     }
@@ -279,6 +287,19 @@ private:
         if (compound.tasks && !compound.tasks->readback)
             warn(compound.outputFrames,
                  "the compound's task has no READBACK: the outputframe stays empty");
+    }
+
+    /// A view equalizer is for several pictures, these are for one.
+    void warnOfIdleEqualizers(const Compound& compound, const ResolvedCompound& own) {
+        const auto sharesOnePicture = [](EqualizerKind kind) {
+            return kind == EqualizerKind::Load || kind == EqualizerKind::Tree ||
+                   kind == EqualizerKind::Tile || kind == EqualizerKind::Dfr;
+        };
+        for (const Equalizer& each : compound.equalizers)
+            if (!own.destination && sharesOnePicture(each.kind))
+                findings_.warning(each.place,
+                                  "the equalizer has no effect: its compound is no part of a "
+                                  "view's picture, as with channel ( segment 0 view 0 )");
     }
 
     bool isChannelOfAncestor(const ResolvedCompound& own) const {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/config/lost_depth.h"
 #include "coordinator/config/named.h"
 #include "coordinator/config/section_readers.h"
 #include "coordinator/config/statement_list.h"
@@ -57,9 +58,18 @@ void addEqualizers(const Compound& compound, std::vector<PlacedEqualizer>& found
     for (const Compound& child : compound.children) addEqualizers(child, found);
 }
 
+/// Who lets it divide data that the file does not has depths compared, too: what is far would cover
+/// what is near.
+void tune(Equalizer& equalizer, const EqualizerTuning& tuning, Compound& compound) {
+    const bool dividedData = dividesData(equalizer);
+    equalizer = tuned(equalizer, tuning).value_or(equalizer);
+    if (dividesData(equalizer) && !dividedData)
+        compound.buffers = Buffers{true, true};
+}
+
 void tuneAll(Compound& compound, const ConfigurationState& state, std::size_t& next) {
     for (Equalizer& equalizer : compound.equalizers)
-        equalizer = tuned(equalizer, state.equalizers[next++]).value_or(equalizer);
+        tune(equalizer, state.equalizers[next++], compound);
     for (Compound& child : compound.children) tuneAll(child, state, next);
 }
 

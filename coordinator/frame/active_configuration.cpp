@@ -86,6 +86,14 @@ void add(Drawn& sum, const ActiveConfiguration::Taken& taken, const fabric::Pixe
     time.covered = fractionOf(sum.covered, sum.asked);
 }
 
+/// Both are the same trees.
+void takeBuffers(const std::vector<config::Compound>& from, std::vector<config::Compound>& to) {
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        to[i].buffers = from[i].buffers;
+        takeBuffers(from[i].children, to[i].children);
+    }
+}
+
 }  // namespace
 
 ActiveConfiguration::ActiveConfiguration(config::Configuration written)
@@ -110,6 +118,7 @@ absl::Status ActiveConfiguration::show(config::ConfigurationState state) {
 void ActiveConfiguration::showIn(config::Configuration& live) const {
     live.layouts = shown_.layouts;
     live.observers = shown_.observers;
+    takeBuffers(shown_.compounds, live.compounds);
 }
 
 /// One that is new begins with what was learned last: a page that is loaded again goes on so.

@@ -138,6 +138,38 @@ TEST(Prediction, MergesOneLayerAStageInBinarySwap) {
                 1e-3);
 }
 
+/// Of one channel and a view, with a second channel that helps.
+absl::StatusOr<Prediction> predictedOf(const std::string& view, const std::string& compound) {
+    config::Findings findings;
+    const std::string pipe = "pipe { window { viewport [ 0 0 1280 720 ] channel { name \"";
+    const config::Configuration configuration = config::readEqc(
+        "config { appNode { " + pipe + "a\" } } } " + pipe + "b\" } } } } layout { view { " + view +
+            " } } canvas { layout 0 segment { channel \"a\" } } compound { channel ( segment 0 "
+            "view "
+            "0 ) " +
+            compound + " } }",
+        findings);
+    EXPECT_FALSE(findings.hasErrors()) << config::describe(findings, "the test's");
+    return predict(configuration, trianglesOnly(), instantLinks(), 1e6);
+}
+
+TEST(Prediction, DrawsOnceForEachEye) {
+    const auto mono = predictedOf("mode MONO", "");
+    const auto stereo = predictedOf("mode STEREO", "");
+    const auto left = predictedOf("mode STEREO", "eye [ LEFT ]");
+    ASSERT_TRUE(mono.ok() && stereo.ok() && left.ok());
+    EXPECT_NEAR(stereo->processorMilliseconds, 2 * mono->processorMilliseconds, 1e-6);
+    EXPECT_NEAR(left->processorMilliseconds, mono->processorMilliseconds, 1e-6);
+}
+
+TEST(Prediction, IsNotOfTilesThatRenderersFetch) {
+    const auto tiles = predictedOf(
+        "",
+        "outputtiles { name \"q\" } compound { inputtiles { name \"q\" } } compound { channel "
+        "\"b\" inputtiles { name \"q\" } outputframe { } } inputframe { name \"frame.b\" }");
+    EXPECT_THAT(tiles.status().message(), testing::HasSubstr("tile_equalizer and inputtiles"));
+}
+
 TEST(Costs, NameTheLineThatTheyCannotTake) {
     const std::string path = testing::TempDir() + "costs.csv";
     std::ofstream(path) << "# what\ntask_ms,3\nspeed,9\n";

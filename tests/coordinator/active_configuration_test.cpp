@@ -164,6 +164,24 @@ TEST(ActiveConfiguration, TunesTheEqualizersOfAllSessions) {
     }
 }
 
+TEST(ActiveConfiguration, ComparesDepthsOfDataThatAnEqualizerIsToldToDivide) {
+    ActiveConfiguration active = twoBesideEachOther();
+    const auto drawDepth = [&active] {
+        const compound::Plan plan = active.plan({}, 1, {}).value();
+        return plan.draws.size() == 2 && std::ranges::all_of(plan.draws, [](const auto& draw) {
+                   return draw.task.wantsDepth;
+               });
+    };
+    EXPECT_FALSE(drawDepth());
+    equalizer::Tuning tuning;
+    tuning.mode = config::SplitMode::Db;
+    ASSERT_TRUE(active.tune("0", tuning).ok());
+    EXPECT_TRUE(drawDepth());
+    tuning.mode = config::SplitMode::TwoD;
+    ASSERT_TRUE(active.tune("0", tuning).ok());
+    EXPECT_FALSE(drawDepth());
+}
+
 std::vector<fabric::Sight> sightsOf(ActiveConfiguration& active) {
     std::vector<fabric::Sight> sights;
     const absl::StatusOr<compound::Plan> plan = active.plan({}, 1, {});

@@ -38,8 +38,10 @@ TEST(EqcErrors, NameWhatIsOpenClosedOrStray) {
     EXPECT_THAT(firstError("config { /* x */ }"), HasSubstr("comments begin with # or //"));
     EXPECT_THAT(firstError("config { latency }"), HasSubstr("1:10 'latency' has no value"));
     EXPECT_THAT(firstError("config { { } }"), HasSubstr("'{' belongs to no keyword"));
-    EXPECT_THAT(firstError("config { layout { view { viewport [ 0 0 1 } } }"),
-                HasSubstr("expected [ x y width height ]"));
+    EXPECT_THAT(firstError("config { layout { view { viewport [ 0 0 1 1 } } }"),
+                HasSubstr("1:45 '}' within [ ]: is a ']' missing?"));
+    EXPECT_THAT(firstError("config { compound { channel ( segment [ 0 ) } }"),
+                HasSubstr("1:43 ')' within [ ]: is a ']' missing?"));
     EXPECT_THAT(firstError(""), HasSubstr("there is no config"));
     EXPECT_THAT(firstError("\n #Equalizer 2.0 ascii\nconfig {}"), HasSubstr("2:2 the file is of "
                                                                             "version 2.0"));
@@ -317,6 +319,81 @@ TEST(EqcWarnings, SayInWhichFramesNothingIsDrawn) {
     EXPECT_EQ(found("compound { period 2 phase 0 " + b + " } compound { period 2 phase 1 " + b +
                     " } " + taken),
               "");
+}
+
+TEST(EqcWarnings, SayWhereCompoundsMakeNothingOfWhatTheViewShows) {
+    const auto found = [](const std::string& compound) {
+        return describe(
+            Read(withCompounds("\ncompound { channel ( segment 0 view 0 ) " + compound + " }"))
+                .findings,
+            "f");
+    };
+    const std::string background =
+        "f:2:1: warning: no compound draws or assembles what the view shows, that of the eye "
+        "CYCLOP: it is background\n";
+    EXPECT_EQ(found("eye [ LEFT RIGHT ]"), background);
+    EXPECT_EQ(found("compound { eye [ LEFT ] } compound { eye [ RIGHT ] }"), background);
+    EXPECT_EQ(found("task [ CLEAR ]"), background);
+    EXPECT_EQ(found("eye [ LEFT CYCLOP ]"), "");
+    EXPECT_EQ(found("compound { eye [ LEFT ] } compound { eye [ CYCLOP ] }"), "");
+}
+
+TEST(EqcWarnings, SayWherePartsOfTheDataComeWithoutDepth) {
+    const auto found = [](const std::string& above, const std::string& part,
+                          const std::string& frame) {
+        return describe(Read(withCompounds("compound { channel ( segment 0 view 0 ) " + above +
+                                           " compound {} compound { channel \"b\" " + part +
+                                           "\noutputframe { name \"f\" " + frame +
+                                           " } } inputframe { name \"f\" } }"))
+                            .findings,
+                        "f");
+    };
+    const std::string noDepth =
+        "f:2:1: warning: the outputframe has a part of the data and no DEPTH, so it covers what is "
+        "nearer; buffer [ COLOR DEPTH ] compares them\n";
+    EXPECT_EQ(found("", "range [ .5 1 ]", ""), noDepth);
+    EXPECT_EQ(found("buffer [ COLOR DEPTH ]", "range [ .5 1 ]", "buffer [ COLOR ]"), noDepth);
+    EXPECT_EQ(found("load_equalizer { mode DB }", "", ""), noDepth);
+    EXPECT_EQ(found("tile_equalizer { size .1 }", "", ""), noDepth);
+    EXPECT_EQ(found("buffer [ COLOR DEPTH ] load_equalizer { mode DB }", "", ""), "");
+    EXPECT_EQ(found("load_equalizer { mode 2D }", "", ""), "");
+    EXPECT_EQ(found("tile_equalizer {}", "", ""), "");
+    EXPECT_EQ(found("", "range [ .5 1 ]", "buffer [ COLOR DEPTH ]"), "");
+}
+
+TEST(EqcWarnings, SayWhichEqualizersHaveNoPictureToShareOut) {
+    const auto found = [](const std::string& equalizer) {
+        return describe(
+            Read(withCompounds("compound {\n" + equalizer +
+                               " {} compound { channel ( segment 0 view 0 ) compound {} } }"))
+                .findings,
+            "f");
+    };
+    for (const char* equalizer :
+         {"load_equalizer", "tree_equalizer", "tile_equalizer", "DFR_equalizer"})
+        EXPECT_EQ(found(equalizer),
+                  "f:2:1: warning: the equalizer has no effect: its compound is no part of a "
+                  "view's picture, as with channel ( segment 0 view 0 )\n");
+    EXPECT_EQ(found("view_equalizer"), "");
+}
+
+TEST(EqcWarnings, SayWhereAnEqualizerTearsPicturesOfSeveralEyesOrPhases) {
+    const auto found = [](const std::string& equalizer, const std::string& first,
+                          const std::string& second) {
+        return describe(
+            Read(withCompounds("compound { channel ( segment 0 view 0 )\n" + equalizer +
+                               " {} compound { " + first + " } compound { " + second + " } }"))
+                .findings,
+            "f");
+    };
+    for (const char* equalizer : {"load_equalizer", "tree_equalizer"}) {
+        EXPECT_THAT(found(equalizer, "period 2 phase 0", "period 2 phase 1"),
+                    HasSubstr("f:2:1: warning: the equalizer shares out one picture, but its "
+                              "children draw for other eyes or in other frames"));
+        EXPECT_EQ(found(equalizer, "", ""), "");
+        EXPECT_EQ(found(equalizer, "", "task [ CLEAR ] period 2 phase 1"), "");
+    }
+    EXPECT_EQ(found("framerate_equalizer", "period 2 phase 0", "period 2 phase 1"), "");
 }
 
 TEST(EqcWarnings, NameBothPlacesOfANameThatTwoThingsHave) {

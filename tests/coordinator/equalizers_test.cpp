@@ -2,6 +2,7 @@
 #include "coordinator/compound/equalizer/equalizers.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -237,6 +238,33 @@ TEST(Equalizers, ReturnToWhatIsWrittenWhenSwitchedOff) {
               (config::Viewport{0, 0, .25, 1}));
     EXPECT_EQ(switchedOff(sharedBetween(2, "load_equalizer { }")), (config::Viewport{0, 0, .5, 1}))
         << "where everyone is written to draw everything";
+}
+
+TEST(Equalizers, ShareOutAllThereIsWhateverIsWritten) {
+    for (const char* kind : {"load_equalizer", "tree_equalizer"})
+        for (const auto& [mode, first, second] :
+             {std::array{"DB", "viewport [ 0 0 .25 1 ]", "viewport [ .25 0 .75 1 ]"},
+              std::array{"2D", "range [ 0 .5 ]", "range [ .5 1 ]"}}) {
+            Balanced balanced(configurationOf(
+                1, fmt::format("compound {{ channel ( segment 0 view 0 ) buffer [ COLOR DEPTH ] "
+                               "{} {{ mode {} }} compound {{ {} }} compound {{ {} channel \"s1\" "
+                               "outputframe {{ }} }} inputframe {{ name \"frame.s1\" }} }}",
+                               kind, mode, first, second)));
+            balanced.apply();
+            EXPECT_DOUBLE_EQ(even(balanced.at(1)) + even(balanced.at(2)), 100) << kind << mode;
+        }
+}
+
+TEST(Equalizers, LeaveDestinationsTheirWholePictures) {
+    for (const char* kind : {"load_equalizer", "tree_equalizer"})
+        for (const char* mode : {"2D", "DB"}) {
+            Balanced balanced(configurationOf(
+                1, fmt::format("compound {{ {} {{ mode {} }} compound {{ channel ( segment 0 view "
+                               "0 ) }} compound {{ channel \"s1\" }} }}",
+                               kind, mode)));
+            balanced.apply();
+            EXPECT_DOUBLE_EQ(even(balanced.at(1)), 100) << kind << mode;
+        }
 }
 
 TEST(Equalizers, StayAsTheyAreWhileFrozen) {

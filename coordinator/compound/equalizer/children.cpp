@@ -71,8 +71,8 @@ void Children::give(Turn& turn, SplitMode mode, double width, double height,
     for (std::size_t i = 0; i < positions_.size(); ++i) {
         config::Compound& child = *turn.live[positions_[i]];
         const Area& part = parts[i];
-        child.viewport = written_[i].viewport;
-        child.range = written_[i].range;
+        child.viewport = {};
+        child.range = {};
         if (mode == SplitMode::Db)
             child.range = {part.x / width, part.xEnd / width};
         else
@@ -103,6 +103,8 @@ void Children::giveAsWritten(Turn& turn, SplitMode mode) const {
 
 std::optional<Whole> wholeOf(const config::ResolvedCompound& compound,
                              const config::Equalizer& settings) {
+    if (compound.pixelViewport.isEmpty())
+        return std::nullopt;
     Whole whole;
     SplitRules& rules = whole.rules;
     rules.axes = axesOf(settings.mode);
@@ -113,8 +115,6 @@ std::optional<Whole> wholeOf(const config::ResolvedCompound& compound,
         rules.resistanceX = settings.resistanceRange.value_or(0);
         return whole;
     }
-    if (compound.pixelViewport.isEmpty())
-        return std::nullopt;
     whole.width = compound.pixelViewport.width;
     whole.height = compound.pixelViewport.height;
     const fabric::Vec2 boundary = settings.boundaryPixels.value_or(fabric::Vec2(1, 1));

@@ -25,7 +25,8 @@ public:
     /// The child's part of the whole, both from 0 to 1.
     Area part(std::size_t child, const PlannedFrame& frame, config::SplitMode mode) const;
 
-    /// Gives each child its part of a whole of `width` x `height`.
+    /// Gives each child its part of a whole of `width` x `height`: all data in a part of the
+    /// picture, or in all of it a part of the data, whatever is written.
     void give(Turn& turn, config::SplitMode mode, double width, double height,
               std::span<const Area> parts) const;
 
@@ -46,7 +47,8 @@ struct Whole {
     double height = 1;
     SplitRules rules;
 };
-/// Nothing while the picture has no pixels.
+/// Nothing while the picture has no pixels, as of groups of destinations, which have none of their
+/// own.
 std::optional<Whole> wholeOf(const config::ResolvedCompound& compound,
                              const config::Equalizer& settings);
 
