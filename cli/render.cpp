@@ -121,7 +121,7 @@ absl::StatusOr<Outputs> createOutputs(const Options& options,
     ASSIGN_OR_RETURN(const OutputReader ofPicture, OutputReader::await(options.out, stop));
     ASSIGN_OR_RETURN(const OutputReader ofDepth, OutputReader::await(options.depth, stop));
     const auto [width, height] = wholeSize(request);
-    ASSIGN_OR_RETURN(outputs.picture, PictureFile::create(options.out, width, height));
+    ASSIGN_OR_RETURN(outputs.picture, PictureFile::create(options.out, width, height, stop));
     if (!options.depth.empty()) {
         ASSIGN_OR_RETURN(outputs.depth, DepthFile::create(options.depth, width, height));
     }
@@ -133,7 +133,7 @@ absl::Status writeStatistics(const std::string& statistics, const Options& optio
     if (options.stats.empty())
         return absl::OkStatus();
     ASSIGN_OR_RETURN(const OutputReader reader, OutputReader::await(options.stats, stop));
-    return writeText(statistics, options.stats);
+    return writeText(statistics, options.stats, stop);
 }
 
 absl::Status finish(Outputs& outputs, const DrawnBands& drawn, const Options& options,

@@ -123,7 +123,7 @@ absl::Status synthMesh(const Options& options) {
     RETURN_IF_ERROR(control.check());
     control.report("writing", 0);
     if (ending == ".ply")
-        RETURN_IF_ERROR(import::writePly(mesh, options.out));
+        RETURN_IF_ERROR(import::writePly(mesh, options.out, stop.token()));
     else
         RETURN_IF_ERROR(import::importMesh(std::move(mesh), options.out, {}, control).status());
     report(options, "triangles", triangles);
