@@ -17,7 +17,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "fabric/no_folder.h"
+#include "fabric/replaceable.h"
 #include "fabric/status.h"
 
 namespace eyrie::mesh {
@@ -53,7 +53,6 @@ std::optional<struct stat> inItsPlace(const std::string& path) {
 }  // namespace
 
 absl::StatusOr<OutputFile> OutputFile::create(const std::string& path, std::stop_token stop) {
-    RETURN_IF_ERROR(fabric::checkNoFolder(path));
     if (const auto target = inItsPlace(path)) {
         const int own = ownOutput(*target);
         const int fd = own >= 0 ? ::fcntl(own, F_DUPFD_CLOEXEC, 0)
@@ -65,6 +64,7 @@ absl::StatusOr<OutputFile> OutputFile::create(const std::string& path, std::stop
         file.stop_ = std::move(stop);
         return file;
     }
+    RETURN_IF_ERROR(fabric::checkReplaceable(path));
     std::string partial = fmt::format("{}.partial-{}", path, ::getpid());
     const int fd =
         ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
