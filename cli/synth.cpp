@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/data_cache.h"
 #include "cli/json_object.h"
+#include "cli/log.h"
 #include "cli/options/whole_number.h"
 #include "cli/output_reader.h"
 #include "cli/progress_bar.h"
@@ -58,8 +59,8 @@ void report(const Options& options, std::string_view unit, std::uint64_t count) 
             "{}\n",
             JsonObject().text("file", options.out).count(unit, count).count("bytes", bytes).str());
     else if (!options.quiet)
-        fmt::print(stderr, "{}: {} {}, {:.1f} MB\n", options.out, count, unit,
-                   static_cast<double>(bytes) / 1e6);
+        tell(fmt::format("{}: {} {}, {:.1f} MB", options.out, count, unit,
+                         static_cast<double>(bytes) / 1e6));
 }
 
 absl::Status synthTerrain(const Options& options) {
