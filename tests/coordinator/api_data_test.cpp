@@ -289,6 +289,19 @@ protected:
     std::unique_ptr<Api> api_;
 };
 
+TEST_F(RestData, ScenesOfDamagedFilesAreRefused) {
+    std::ofstream(data() / "survey/dem.eyt") << "no terrain";
+    run_ = [](const auto&, const Heard& heard, const auto&) {
+        heard("eyrie: ./survey/dem.eyt: this is no .eyt file; import it again");
+        return ProgramEnd{false, 2, ""};
+    };
+    const RestAnswer answer = ask("PUT", "/scene", R"({"objects":[{"terrain":"survey/dem.eyt"}]})");
+    EXPECT_EQ(answer.status, 409) << *answer.body;
+    EXPECT_THAT(member(answer, "detail"),
+                testing::AllOf(HasSubstr("scene.objects[0]: 'survey/dem.eyt' cannot be opened: "),
+                               HasSubstr("this is no .eyt file")));
+}
+
 TEST_F(RestData, ImportsIntoTheDataFolder) {
     const RestAnswer answer = ask("POST", "/imports", import(R"(,"errorMetres":0.5)"), "one");
     ASSERT_EQ(answer.status, 200) << *answer.body;
