@@ -116,7 +116,11 @@ def differences(rng, eyrie, folder, scene, places):
 
 
 def main():
-    eyrie, count, seed, files = sys.argv[1], int(sys.argv[2]), int(sys.argv[3]), sys.argv[4:]
+    eyrie, files = sys.argv[1], sys.argv[4:]
+    try:
+        count, seed = int(sys.argv[2]), int(sys.argv[3])
+    except ValueError:
+        raise SystemExit(__doc__) from None
     bounds = {}
     for file in files:
         told = json.loads(run(eyrie, "info", file, "--json").stdout)["bounds"]

@@ -131,8 +131,11 @@ def main():
     if len(sys.argv) < 3 or sys.argv[1] == "--help":
         sys.exit(__doc__)
     program, scene, count, size, tau, in_flight = (sys.argv[1:] + [None] * 4)[:6]
-    count, tau, in_flight = int(count or 60), float(tau or 1), int(in_flight or 4)
-    width, height = map(int, (size or "1280x720").split("x"))
+    try:
+        count, tau, in_flight = int(count or 60), float(tau or 1), int(in_flight or 4)
+        width, height = map(int, (size or "1280x720").split("x"))
+    except ValueError:
+        sys.exit(__doc__)
     with tempfile.TemporaryDirectory() as cache:
         server = Server(program, scene, cache)
         try:

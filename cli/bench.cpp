@@ -16,6 +16,7 @@
 #include "cli/bench/report.h"
 #include "cli/commands.h"
 #include "cli/drawing_options.h"
+#include "cli/log.h"
 #include "cli/occlusion_option.h"
 #include "cli/renderer_processes.h"
 #include "cli/stop_signal.h"
@@ -156,7 +157,7 @@ absl::Status runBench(const Options& options) {
     }
     ASSIGN_OR_RETURN(auto runs, bench::playRuns(plan, stop.token()));
     if (!options.pictures.quiet && !runs.front().flightNote.empty())
-        fmt::print(stderr, "{}: {}\n", options.flight, runs.front().flightNote);
+        tell(fmt::format("{}: {}", options.flight, runs.front().flightNote));
     std::vector<bench::UniformLevel> uniform;
     if (reference) {
         ASSIGN_OR_RETURN(uniform, bench::measureRuns(*reference, plan, runs, stop.token()));

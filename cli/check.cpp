@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/configuration_file.h"
 #include "cli/image_files.h"
+#include "cli/log.h"
 #include "cli/own_places.h"
 #include "coordinator/compound/plan_check.h"
 #include "coordinator/config/configuration_message.h"
@@ -55,8 +56,10 @@ absl::Status checkFile(const Options& options) {
             check::startedWith(checked.configuration, static_cast<std::size_t>(options.renderers));
     if (options.json)
         fmt::print("{}\n", check::json(checked));
+    else if (checked.findings.hasErrors())
+        tellErrors(config::describe(checked.findings, options.file));
     else
-        fmt::print(stderr, "{}", config::describe(checked.findings, options.file));
+        tell(config::describe(checked.findings, options.file));
     if (checked.findings.hasErrors())
         return absl::InvalidArgumentError(fmt::format("{}: {} error{}", options.file,
                                                       checked.findings.errors(),

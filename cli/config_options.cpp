@@ -10,6 +10,7 @@
 
 #include "cli/compound_names.h"
 #include "cli/configuration_file.h"
+#include "cli/log.h"
 #include "cli/options/one_of.h"
 #include "coordinator/compound/plan_check.h"
 #include "coordinator/config/findings.h"
@@ -118,8 +119,10 @@ absl::StatusOr<std::optional<config::Configuration>> configurationOf(const Confi
         config::resolve(configuration, findings);
     if (!findings.hasErrors())
         compound::checkPlans(configuration, findings);
-    if (findings.hasErrors() || !quiet)
-        fmt::print(stderr, "{}", config::describe(findings, options.file));
+    if (findings.hasErrors())
+        tellErrors(config::describe(findings, options.file));
+    else if (!quiet)
+        tell(config::describe(findings, options.file));
     if (findings.hasErrors())
         return absl::InvalidArgumentError(
             fmt::format("--config: {} has {} error{}; `eyrie check` explains it", options.file,

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "cli/bench/flights.h"
+#include "cli/log.h"
 #include "cli/output_reader.h"
 #include "cli/picture_bands.h"
 #include "cli/progress_bar.h"
@@ -35,7 +36,7 @@ absl::StatusOr<std::vector<fabric::FlightKey>> framesFor(const FlightVideo& vide
                                                          const fabric::Box& bounds) {
     ASSIGN_OR_RETURN(const fabric::CameraPath path, video.flight.over(bounds));
     if (!video.quiet && !path.note.empty())
-        fmt::print(stderr, "{}: {}\n", video.flight.name(), path.note);
+        tell(fmt::format("{}: {}", video.flight.name(), path.note));
     const fabric::Flight& flight = path.flight;
     const double count = std::round(flight.seconds() * video.framesPerSecond) + 1;
     if (count > kMostFrames)
@@ -88,10 +89,10 @@ absl::Status writeFlightVideo(const FlightVideo& video, const std::string& scene
     RETURN_IF_ERROR(movie->finish());
     RETURN_IF_ERROR(file.commit());
     if (!video.quiet)
-        fmt::print(stderr,
-                   "{}: {} pictures, error at most {:.3g} of {:.3g} pixels asked, and what "
-                   "coding adds\n",
-                   video.out, frames.size(), worstPixels, request.tauPixels);
+        tell(
+            fmt::format("{}: {} pictures, error at most {:.3g} of {:.3g} pixels asked, and what "
+                        "coding adds",
+                        video.out, frames.size(), worstPixels, request.tauPixels));
     return absl::OkStatus();
 }
 

@@ -26,12 +26,6 @@ std::string ending(const std::string& path) {
 
 bool isJpeg(const std::string& path) { return ending(path) == ".jpg" || ending(path) == ".jpeg"; }
 
-absl::Status writeFile(std::span<const std::byte> bytes, const std::string& path) {
-    ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(path));
-    RETURN_IF_ERROR(file.write(bytes));
-    return file.commit();
-}
-
 class JpegFile final : public PictureFile {
 public:
     JpegFile(mesh::OutputFile file, int width, int height)
@@ -56,8 +50,11 @@ private:
 
 }  // namespace
 
-absl::Status writeText(std::string_view text, const std::string& path) {
-    return writeFile(std::as_bytes(std::span(text)), path);
+absl::Status writeText(std::string_view text, const std::string& path,
+                       const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(path, stop));
+    RETURN_IF_ERROR(file.write(std::as_bytes(std::span(text))));
+    return file.commit();
 }
 
 absl::Status checkPictureName(const std::string& path, std::string_view option) {
@@ -68,11 +65,12 @@ absl::Status checkPictureName(const std::string& path, std::string_view option) 
 }
 
 absl::StatusOr<std::unique_ptr<PictureFile>> PictureFile::create(const std::string& path, int width,
-                                                                 int height) {
+                                                                 int height,
+                                                                 const std::stop_token& stop) {
     RETURN_IF_ERROR(checkPictureName(path, "picture"));
     if (!isJpeg(path))
-        return createPng(path, width, height);
-    ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(path));
+        return createPng(path, width, height, stop);
+    ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(path, stop));
     return std::make_unique<JpegFile>(std::move(file), width, height);
 }
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -12,7 +13,7 @@
 #include "renderer/mesh/output_file.h"
 
 /// Pictures on disk, written from the top down, so that a large one is never in memory whole. Every
-/// file appears under its name only when it is complete.
+/// file appears under its name only when it is complete. `stop` is as of mesh::OutputFile.
 /// Errors: those of mesh::OutputFile; InvalidArgument where said.
 namespace eyrie::cli {
 
@@ -25,7 +26,8 @@ public:
     /// 8-bit RGB PNG or, for .jpg and .jpeg, JPEG of quality 95 without subsampling, whose pixels
     /// are kept until commit(). InvalidArgument for another ending.
     static absl::StatusOr<std::unique_ptr<PictureFile>> create(const std::string& path, int width,
-                                                               int height);
+                                                               int height,
+                                                               const std::stop_token& stop = {});
 
     virtual ~PictureFile() = default;
 
@@ -55,6 +57,7 @@ private:
     mesh::OutputFile file_;
 };
 
-absl::Status writeText(std::string_view text, const std::string& path);
+absl::Status writeText(std::string_view text, const std::string& path,
+                       const std::stop_token& stop = {});
 
 }  // namespace eyrie::cli

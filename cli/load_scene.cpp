@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/data_cache.h"
+#include "cli/log.h"
 #include "cli/progress_bar.h"
 #include "cli/scene_files.h"
 #include "fabric/status.h"
@@ -25,7 +26,7 @@ absl::StatusOr<fabric::Scene> loadScene(std::span<const std::string> paths,
     std::vector<std::string> notes;
     ASSIGN_OR_RETURN(fabric::Scene scene, assembleScene(paths, cache, notes));
     if (!isQuiet)
-        for (const std::string& note : notes) fmt::print(stderr, "{}\n", note);
+        for (const std::string& note : notes) tell(note);
     return scene;
 }
 

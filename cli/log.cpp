@@ -84,6 +84,17 @@ private:
     const std::string command_;
 };
 
+void tellLines(std::string_view lines, spdlog::level::level_enum level) {
+    while (!lines.empty()) {
+        const std::string_view line = lines.substr(0, lines.find('\n'));
+        lines.remove_prefix(std::min(line.size() + 1, lines.size()));
+        if (current.isJson)
+            spdlog::log(level, "{}", line);
+        else
+            fmt::print(stderr, "{}\n", line);
+    }
+}
+
 }  // namespace
 
 void startLog(const LogOptions& options) {
@@ -113,6 +124,12 @@ std::vector<std::string> logArguments() {
         arguments.insert(arguments.end(), {"--log-level", current.level});
     return arguments;
 }
+
+bool logsJson() { return current.isJson; }
+
+void tell(std::string_view lines) { tellLines(lines, spdlog::level::info); }
+
+void tellErrors(std::string_view lines) { tellLines(lines, spdlog::level::err); }
 
 void logFailure(const std::string& message) {
     if (current.isJson)

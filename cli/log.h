@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace eyrie::cli {
@@ -22,6 +23,16 @@ void quietLog();
 
 /// The options by which a child process logs in the same way.
 std::vector<std::string> logArguments();
+
+/// Whether entries are JSON.
+bool logsJson();
+
+/// What a command tells people of its work, line by line: as they are, or entries of a
+/// JSON log.
+void tell(std::string_view lines);
+
+/// The same of what is wrong with its input.
+void tellErrors(std::string_view lines);
 
 /// The last word of a command that failed: an entry of a JSON log, "eyrie: …" for people.
 void logFailure(const std::string& message);

@@ -33,8 +33,8 @@ private:
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<PictureFile>> createPng(const std::string& path, int width,
-                                                       int height) {
-    ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(path));
+                                                       int height, const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(path, stop));
     return std::make_unique<PngFile>(std::move(file), width, height);
 }
 

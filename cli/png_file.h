@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <stop_token>
 #include <string>
 
 #include <absl/status/statusor.h>
@@ -13,6 +14,6 @@ namespace eyrie::cli {
 /// An 8-bit RGB PNG (sRGB), compressed as rows come: only a few of them are in memory at a time.
 /// Errors: those of mesh::OutputFile.
 absl::StatusOr<std::unique_ptr<PictureFile>> createPng(const std::string& path, int width,
-                                                       int height);
+                                                       int height, const std::stop_token& stop);
 
 }  // namespace eyrie::cli

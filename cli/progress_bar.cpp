@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "cli/json_object.h"
+#include "cli/log.h"
 
 namespace eyrie::cli {
 namespace {
@@ -35,6 +36,8 @@ std::string progressLine(std::string_view title, std::string_view stage, double 
 ProgressBar::Style ProgressBar::styleFor(bool quiet) {
     if (quiet)
         return Style::Quiet;
+    if (logsJson())
+        return Style::Log;
     return isatty(STDERR_FILENO) != 0 ? Style::Bar : Style::Lines;
 }
 
@@ -56,6 +59,8 @@ void ProgressBar::show(std::string_view stage, double fraction, Clock::time_poin
         stageBegin_ = now;
         if (style_ == Style::Lines)
             fmt::print(out_, "{}: {}\n", title_, stage);
+        if (style_ == Style::Log)
+            cli::tell(fmt::format("{}: {}", title_, stage));
     }
     if (!newStage && now - lastDrawn_ < kRedrawInterval)
         return;

@@ -12,13 +12,14 @@
 namespace eyrie::cli {
 
 /// Shows how far long work is, on standard error: a bar with rate and time left on a terminal, one
-/// line a stage otherwise, JSON for programs, nothing when quiet. Used by one thread at a time.
+/// line a stage otherwise, JSON for programs, entries of a JSON log, nothing when quiet. Used by
+/// one thread at a time.
 class ProgressBar {
 public:
-    enum class Style { Quiet, Lines, Bar, Json };
+    enum class Style { Quiet, Lines, Bar, Json, Log };
     using Clock = std::chrono::steady_clock;
 
-    /// Bar on a terminal, otherwise Lines; Quiet if asked for.
+    /// Bar on a terminal, otherwise Lines; Log where that is of JSON, Quiet if asked for.
     static Style styleFor(bool quiet);
 
     /// `title` says what is worked on; `amount` of `unit` ("MB", "M samples") is the whole of each

@@ -19,6 +19,7 @@
 #include "cli/drawing_options.h"
 #include "cli/flight_video.h"
 #include "cli/image_files.h"
+#include "cli/log.h"
 #include "cli/occlusion_option.h"
 #include "cli/options/one_of.h"
 #include "cli/output_reader.h"
@@ -120,7 +121,7 @@ absl::StatusOr<Outputs> createOutputs(const Options& options,
     ASSIGN_OR_RETURN(const OutputReader ofPicture, OutputReader::await(options.out, stop));
     ASSIGN_OR_RETURN(const OutputReader ofDepth, OutputReader::await(options.depth, stop));
     const auto [width, height] = wholeSize(request);
-    ASSIGN_OR_RETURN(outputs.picture, PictureFile::create(options.out, width, height));
+    ASSIGN_OR_RETURN(outputs.picture, PictureFile::create(options.out, width, height, stop));
     if (!options.depth.empty()) {
         ASSIGN_OR_RETURN(outputs.depth, DepthFile::create(options.depth, width, height));
     }
@@ -132,7 +133,7 @@ absl::Status writeStatistics(const std::string& statistics, const Options& optio
     if (options.stats.empty())
         return absl::OkStatus();
     ASSIGN_OR_RETURN(const OutputReader reader, OutputReader::await(options.stats, stop));
-    return writeText(statistics, options.stats);
+    return writeText(statistics, options.stats, stop);
 }
 
 absl::Status finish(Outputs& outputs, const DrawnBands& drawn, const Options& options,
@@ -145,14 +146,15 @@ absl::Status finish(Outputs& outputs, const DrawnBands& drawn, const Options& op
     RETURN_IF_ERROR(writeStatistics(statistics, options, stop));
     RETURN_IF_ERROR(outputs.picture->commit());
     if (!drawn.whyEmpty.empty() && !options.pictures.quiet)
-        fmt::print(stderr, "{}: {}\n", options.out, drawn.whyEmpty);
+        tell(fmt::format("{}: {}", options.out, drawn.whyEmpty));
     if (options.json)
         fmt::print("{}\n", statistics);
     else if (!options.pictures.quiet)
-        fmt::print(stderr, "{}: {} triangles, {:.1f} ms, error {:.3g} of {:.3g} pixels asked{}\n",
-                   options.out, drawn.statistics.triangles, drawn.statistics.milliseconds.total,
-                   drawn.statistics.tauAchievedPixels, drawn.statistics.tauAskedPixels,
-                   drawn.statistics.complete ? "" : ", incomplete");
+        tell(fmt::format("{}: {} triangles, {:.1f} ms, error {:.3g} of {:.3g} pixels asked{}",
+                         options.out, drawn.statistics.triangles,
+                         drawn.statistics.milliseconds.total, drawn.statistics.tauAchievedPixels,
+                         drawn.statistics.tauAskedPixels,
+                         drawn.statistics.complete ? "" : ", incomplete"));
     return absl::OkStatus();
 }
 
@@ -258,7 +260,7 @@ absl::Status renderAll(const Options& options) {
         RETURN_IF_ERROR(
             write(i == 0 ? frame.image : frame.further[i - 1], own[i], request, stop.token()));
         if (!options.pictures.quiet && !options.json)
-            fmt::print(stderr, "{}\n", own[i].out);
+            tell(own[i].out);
     }
     const std::string statistics =
         wire::statisticsJson(frame.statistics, request.width, request.height, frame.device);
@@ -284,9 +286,9 @@ void noteIdleCompound(const PictureSourceOptions& pictures) {
     const ConfigOptions& config = pictures.config;
     if (pictures.renderers <= 1 && config.file.empty() && !pictures.quiet &&
         config.compound != ConfigOptions().compound)
-        fmt::print(stderr,
-                   "--compound {} has no effect: one process draws; --renderers says how many do\n",
-                   config.compound);
+        tell(fmt::format(
+            "--compound {} has no effect: one process draws; --renderers says how many do",
+            config.compound));
 }
 
 absl::Status renderAsAsked(const Options& options) {

@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/data_cache.h"
 #include "cli/json_object.h"
+#include "cli/log.h"
 #include "cli/options/whole_number.h"
 #include "cli/output_reader.h"
 #include "cli/progress_bar.h"
@@ -58,8 +59,8 @@ void report(const Options& options, std::string_view unit, std::uint64_t count) 
             "{}\n",
             JsonObject().text("file", options.out).count(unit, count).count("bytes", bytes).str());
     else if (!options.quiet)
-        fmt::print(stderr, "{}: {} {}, {:.1f} MB\n", options.out, count, unit,
-                   static_cast<double>(bytes) / 1e6);
+        tell(fmt::format("{}: {} {}, {:.1f} MB", options.out, count, unit,
+                         static_cast<double>(bytes) / 1e6));
 }
 
 absl::Status synthTerrain(const Options& options) {
@@ -123,7 +124,7 @@ absl::Status synthMesh(const Options& options) {
     RETURN_IF_ERROR(control.check());
     control.report("writing", 0);
     if (ending == ".ply")
-        RETURN_IF_ERROR(import::writePly(mesh, options.out));
+        RETURN_IF_ERROR(import::writePly(mesh, options.out, stop.token()));
     else
         RETURN_IF_ERROR(import::importMesh(std::move(mesh), options.out, {}, control).status());
     report(options, "triangles", triangles);

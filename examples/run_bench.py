@@ -51,7 +51,10 @@ def ended(server, operation):
 def main():
     arguments = [each for each in sys.argv[1:] if each != "--reference"]
     server, output, file = arguments[0].rstrip("/"), arguments[1], arguments[2]
-    taus = [float(tau) for tau in (arguments[3] if len(arguments) > 3 else "1,4").split(",")]
+    try:
+        taus = [float(tau) for tau in (arguments[3] if len(arguments) > 3 else "1,4").split(",")]
+    except ValueError:
+        raise SystemExit(__doc__) from None
     # Of what is shown now. The key makes it safe to ask again where an answer got lost.
     operation = json.loads(ask(
         server, "POST", "/bench-runs",

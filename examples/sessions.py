@@ -53,7 +53,10 @@ def main():
     if arguments[1:] == ["close"]:
         ask(server, "DELETE", path)
         return
-    eye, target = ([float(metres) for metres in place.split(",")] for place in arguments[1:])
+    try:
+        eye, target = ([float(metres) for metres in place.split(",")] for place in arguments[1:])
+    except ValueError:
+        raise SystemExit(__doc__) from None
     ask(server, "PATCH", path, {"camera": {"eye": eye, "target": target}})
     tell(ask(server, "GET", path))
 

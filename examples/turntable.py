@@ -50,7 +50,10 @@ def turned(home, turn):
 
 def main():
     server, folder = sys.argv[1].rstrip("/"), sys.argv[2]
-    count = int(sys.argv[3]) if len(sys.argv) > 3 else 8
+    try:
+        count = int(sys.argv[3]) if len(sys.argv) > 3 else 8
+    except ValueError:
+        raise SystemExit(__doc__) from None
     os.makedirs(folder, exist_ok=True)
     home = json.loads(ask(server, "/status"))["session"]["home"]
     cameras = [turned(home, 2 * math.pi * i / count) for i in range(count)]

@@ -28,7 +28,10 @@ def events(server):
 
 def main():
     server = sys.argv[1].rstrip("/")
-    lines = int(sys.argv[2]) if len(sys.argv) > 2 else None
+    try:
+        lines = int(sys.argv[2]) if len(sys.argv) > 2 else None
+    except ValueError:
+        raise SystemExit(__doc__) from None
     try:
         for count, event in enumerate(events(server), start=1):
             statistics = event["statistics"]

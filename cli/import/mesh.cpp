@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/import/mesh_options.h"
 #include "cli/import/mesh_report.h"
+#include "cli/log.h"
 #include "cli/output_reader.h"
 #include "cli/progress_bar.h"
 #include "cli/several_sources.h"
@@ -68,7 +69,7 @@ absl::Status importMesh(const MeshImportChoices& choices) {
         printJson(choices, made, tuning);
     } else if (!choices.quiet) {
         if (!tuning.tried.empty())
-            fmt::print(stderr, "{}", table(tuning));
+            tell(table(tuning));
         printText(choices, made);
     }
     return absl::OkStatus();

@@ -9,6 +9,7 @@
 
 #include "cli/import_notes.h"
 #include "cli/json_object.h"
+#include "cli/log.h"
 #include "cli/several_sources.h"
 
 namespace eyrie::cli {
@@ -69,21 +70,21 @@ void printJson(const MeshImportChoices& choices, const import::MeshImportReport&
 
 void printText(const MeshImportChoices& choices, const import::MeshImportReport& made) {
     for (const std::string& note : notesOf(made))
-        fmt::print(stderr, "{}: {}\n", titleOf(choices.sources), note);
+        tell(fmt::format("{}: {}", titleOf(choices.sources), note));
     const import::PackCounts& counts = made.counts;
     if (choices.how.pack.orients)
-        fmt::print(stderr, "{}: turned {} triangles of {} surfaces, {} of which are closed\n",
-                   titleOf(choices.sources), counts.orient.turnedTriangles,
-                   counts.orient.components, counts.orient.closedComponents);
+        tell(fmt::format("{}: turned {} triangles of {} surfaces, {} of which are closed",
+                         titleOf(choices.sources), counts.orient.turnedTriangles,
+                         counts.orient.components, counts.orient.closedComponents));
     const std::string points =
         made.pointNodes > 0 ? fmt::format(", {} nodes as points from afar", made.pointNodes) : "";
     const auto hasNodes = [](const mesh::LodLevel& level) { return level.nodes > 0; };
-    fmt::print(stderr, "{}: {} triangles, {} vertices, {} simpler levels{}, {:.1f} MB, {:.2f} s\n",
-               choices.out, made.triangles, made.vertices,
-               std::ranges::count_if(made.levels, hasNodes), points,
-               static_cast<double>(made.bytes) / 1e6, made.seconds.total);
+    tell(fmt::format("{}: {} triangles, {} vertices, {} simpler levels{}, {:.1f} MB, {:.2f} s",
+                     choices.out, made.triangles, made.vertices,
+                     std::ranges::count_if(made.levels, hasNodes), points,
+                     static_cast<double>(made.bytes) / 1e6, made.seconds.total));
     if (const std::string kept = keptLine(made); !kept.empty())
-        fmt::print(stderr, "{}: {}\n", choices.out, kept);
+        tell(fmt::format("{}: {}", choices.out, kept));
 }
 
 }  // namespace eyrie::cli

@@ -13,6 +13,7 @@
 #include "cli/imagery_facts.h"
 #include "cli/import/options.h"
 #include "cli/json_object.h"
+#include "cli/log.h"
 #include "cli/progress_bar.h"
 #include "cli/several_sources.h"
 #include "cli/source_record.h"
@@ -68,7 +69,7 @@ absl::StatusOr<import::TerrainImportOptions> importOptions(const TerrainOptions&
 
 void printNotes(const TerrainOptions& options, const std::vector<std::string>& notes) {
     for (const std::string& note : notes)
-        fmt::print(stderr, "{}: {}\n", titleOf(options.sources), note);
+        tell(fmt::format("{}: {}", titleOf(options.sources), note));
 }
 
 absl::Status importTerrain(const TerrainOptions& options) {
@@ -106,11 +107,11 @@ absl::Status importTerrain(const TerrainOptions& options) {
     if (options.quiet)
         return absl::OkStatus();
     printNotes(options, made->notes);
-    fmt::print(stderr, "{}: {} x {} samples, {} levels, {:.1f} MB, {:.2f} s\n", options.out,
-               made->columns, made->rows, made->levels, static_cast<double>(made->sizeBytes) / 1e6,
-               watch.seconds());
+    tell(fmt::format("{}: {} x {} samples, {} levels, {:.1f} MB, {:.2f} s", options.out,
+                     made->columns, made->rows, made->levels,
+                     static_cast<double>(made->sizeBytes) / 1e6, watch.seconds()));
     if (made->imagery)
-        fmt::print(stderr, "{}: {}\n", options.out, imageryText(*made->imagery));
+        tell(fmt::format("{}: {}", options.out, imageryText(*made->imagery)));
     return absl::OkStatus();
 }
 
@@ -145,13 +146,12 @@ absl::Status importShard(const TerrainOptions& options) {
         return absl::OkStatus();
     printNotes(options, made->notes);
     if (made->wasThere)
-        fmt::print(stderr, "{}: is there already\n", made->part);
+        tell(fmt::format("{}: is there already", made->part));
     else
-        fmt::print(stderr,
-                   "{}: {} samples, {:.1f} MB, {:.2f} s; with all shards done, give the "
-                   "same command --merge instead of --shard\n",
-                   made->part, made->posts, static_cast<double>(made->sizeBytes) / 1e6,
-                   watch.seconds());
+        tell(fmt::format(
+            "{}: {} samples, {:.1f} MB, {:.2f} s; with all shards done, give the "
+            "same command --merge instead of --shard",
+            made->part, made->posts, static_cast<double>(made->sizeBytes) / 1e6, watch.seconds()));
     return absl::OkStatus();
 }
 

@@ -9,7 +9,8 @@
 namespace eyrie::api {
 
 absl::StatusOr<fabric::Camera> cameraOf(const v1::Camera& message,
-                                        const coordinator::FrameSource& frames) {
+                                        const coordinator::FrameSource& frames,
+                                        double exaggeration) {
     if (message.ByteSizeLong() > 0) {
         auto camera = wire::fromMessage(message);
         if (!camera.ok())
@@ -20,7 +21,7 @@ absl::StatusOr<fabric::Camera> cameraOf(const v1::Camera& message,
     if (status.sceneInfo.bounds.isEmpty())
         return absl::UnavailableError(status.problem.empty() ? "no scene is open yet"
                                                              : status.problem);
-    return stream::homeCamera(status.sceneInfo.bounds);
+    return stream::homeCamera(stream::exaggeratedBounds(status.sceneInfo, exaggeration));
 }
 
 }  // namespace eyrie::api

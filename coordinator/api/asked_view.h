@@ -15,9 +15,11 @@ namespace eyrie::api {
 inline constexpr int kUsualWidth = 1280;
 inline constexpr int kUsualHeight = 720;
 
-/// `message` or, where it is empty, where viewers start. Errors: InvalidArgument (the camera),
-/// Unavailable (no scene is open, and so viewers start nowhere).
+/// `message` or, where it is empty, where viewers start, for heights drawn times `exaggeration`.
+/// Errors: InvalidArgument (the camera), Unavailable (no scene is open, and so viewers start
+/// nowhere).
 absl::StatusOr<fabric::Camera> cameraOf(const v1::Camera& message,
-                                        const coordinator::FrameSource& frames);
+                                        const coordinator::FrameSource& frames,
+                                        double exaggeration);
 
 }  // namespace eyrie::api

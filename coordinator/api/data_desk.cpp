@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "coordinator/api/bench_order.h"
 #include "coordinator/api/import_order.h"
 #include "coordinator/api/quotas.h"
@@ -46,6 +48,9 @@ absl::StatusOr<std::uint64_t> DataDesk::trianglesOf(const std::string& name,
     if (!sets_ || !programs_.run)
         return 0;
     ASSIGN_OR_RETURN(const v1::DataSet set, sets_->look(name, stop));
+    if (!set.problem().empty())
+        return absl::FailedPreconditionError(
+            fmt::format("'{}' cannot be opened: {}", name, set.problem()));
     return static_cast<std::uint64_t>(std::max<std::int64_t>(0, set.triangles()));
 }
 

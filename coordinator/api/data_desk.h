@@ -38,8 +38,8 @@ public:
     /// the server does no imports.
     absl::StatusOr<v1::Operation> import(const v1::ImportRequest& request);
 
-    /// At full resolution, of the file of that name; 0 where it cannot be read, or the server runs
-    /// no programs. Errors: those of DataSets.
+    /// At full resolution, of the file of that name; 0 where the server runs no programs.
+    /// Errors: those of DataSets; FailedPrecondition (the file cannot be read).
     absl::StatusOr<std::uint64_t> trianglesOf(const std::string& name, const std::stop_token& stop);
 
     /// What a bench run of programs that may take so much memory is.

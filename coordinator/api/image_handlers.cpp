@@ -20,6 +20,7 @@
 #include "wire/camera.h"
 #include "wire/frame.h"
 #include "wire/jpeg.h"
+#include "wire/look.h"
 #include "wire/png.h"
 
 namespace eyrie::api {
@@ -103,17 +104,16 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const v1::RenderImageRequest
     }
     if (asText)
         RETURN_IF_ERROR(quotas.counted(observe::Quota::Image, checkTextSize(request)));
-    ASSIGN_OR_RETURN(request.camera, cameraOf(message.camera(), frames));
+    ASSIGN_OR_RETURN(request.look, wire::fromMessage(message.look()));
+    ASSIGN_OR_RETURN(request.camera, cameraOf(message.camera(), frames, request.look.exaggeration));
     v1::FrameData data;
     data.set_version(1);
     *data.mutable_camera() = wire::toMessage(request.camera);
     data.set_tau_pixels(message.has_tau_pixels() ? message.tau_pixels() : request.tauPixels);
     data.set_shading(message.shading());
-    *data.mutable_look() = message.look();
     ASSIGN_OR_RETURN(const fabric::FrameData frameData, wire::fromMessage(data));
     request.tauPixels = frameData.tauPixels;
     request.shading = frameData.shading;
-    request.look = frameData.look;
     request.shown = {stream::shownFromMessage(message.shown())};
     request.wantsDepth = message.with_depth() || message.format() == v1::IMAGE_FORMAT_DEPTH;
     return request;

@@ -39,13 +39,13 @@ absl::Status checkPlace(const v1::PickPointRequest& message, int width, int heig
 absl::StatusOr<v1::PickPointResponse> pickPoint(coordinator::FrameSource& frames,
                                                 const v1::PickPointRequest& message) {
     fabric::PickRequest request;
-    ASSIGN_OR_RETURN(request.camera, cameraOf(message.camera(), frames));
+    if (message.has_exaggeration())
+        request.exaggeration = message.exaggeration();
+    ASSIGN_OR_RETURN(request.camera, cameraOf(message.camera(), frames, request.exaggeration));
     request.viewWidth = message.has_width() ? message.width() : kUsualWidth;
     request.viewHeight = message.has_height() ? message.height() : kUsualHeight;
     RETURN_IF_ERROR(checkPlace(message, request.viewWidth, request.viewHeight));
     request.place = {message.x(), request.viewHeight - message.y()};  // rows count from the top
-    if (message.has_exaggeration())
-        request.exaggeration = message.exaggeration();
     ASSIGN_OR_RETURN(request.hidden,
                      wire::hiddenObjects(message.hidden_objects(), "hiddenObjects"));
     RETURN_IF_ERROR(fabric::validate(request));

@@ -14,6 +14,7 @@
 #include "access/printable.h"
 #include "coordinator/api/rest_routes.h"
 #include "fabric/status.h"
+#include "wire/json_error.h"
 
 namespace eyrie::api {
 namespace {
@@ -26,30 +27,24 @@ absl::Status noField(std::string_view path) {
         fmt::format("there is no field '{}' here; see /api for what there is", path));
 }
 
-/// protobuf's words in the form of all messages here: they begin with the field. `below` is what
-/// the JSON is of: "scene." or nothing.
-absl::Status notOfTheKind(std::string_view words, std::string_view below, const Message& message) {
-    constexpr std::string_view kNoField = ": Cannot find field.";
-    std::string path;
-    if (const std::size_t end = words.find(')'); words.starts_with('(') && end != words.npos) {
-        path = words.substr(1, end - 1);
-        words.remove_prefix(std::min(words.size(), end + 2));  // and ':' or ' '
-    }
-    if (words.ends_with(kNoField))
-        return noField(fmt::format("{}{}{}{}", below, path, path.empty() ? "" : ".",
-                                   words.substr(0, words.size() - kNoField.size()).substr(0, 64)));
-    if (path.empty())
+/// `below` is what the JSON is of: "scene." or nothing.
+absl::Status notOfTheKind(const wire::JsonError& error, std::string_view below,
+                          const Message& message) {
+    if (error.isUnknown)
+        return noField(fmt::format("{}{}", below, error.field));
+    if (error.field.empty())
         return absl::InvalidArgumentError(
-            fmt::format("this is no JSON of {}: {}", message.GetDescriptor()->name(), words));
+            fmt::format("this is no JSON of {}: {}", message.GetDescriptor()->name(), error.what));
     return absl::InvalidArgumentError(
-        fmt::format("{}{}:{}; see /api for what it can be", below, path, words));
+        fmt::format("{}{}; see /api for what it can be", below, error.text()));
 }
 
 absl::Status parseJson(const std::string& json, std::string_view below, Message& message) {
     const auto status = google::protobuf::util::JsonStringToMessage(json, &message);
-    return status.ok()
-               ? absl::OkStatus()
-               : notOfTheKind({status.message().data(), status.message().size()}, below, message);
+    if (status.ok())
+        return absl::OkStatus();
+    return notOfTheKind(wire::jsonError({status.message().data(), status.message().size()}), below,
+                        message);
 }
 
 const FieldDescriptor* fieldOf(std::string_view name, const Message& message) {

@@ -107,27 +107,28 @@ absl::StatusOr<std::string> SceneDesk::pathOf(const std::string& name, const cha
     return path.string();
 }
 
-absl::Status SceneDesk::checkSize(const std::vector<std::string>& names,
+absl::Status SceneDesk::checkSize(const std::vector<NamedFile>& files,
                                   const std::stop_token& stop) const {
     const Quotas& most = quotas_.most();
     std::uint64_t bytes = 0;
-    for (const std::string& name : names) {
+    for (const NamedFile& file : files) {
         std::error_code error;
-        const std::uintmax_t size = std::filesystem::file_size(folder_->path() / name, error);
+        const std::uintmax_t size = std::filesystem::file_size(folder_->path() / file.name, error);
         bytes += error ? 0 : size;
     }
     if (bytes > most.sceneBytes)
         return absl::InvalidArgumentError(
             fmt::format("scene.objects have files of {} bytes; at most {} are drawn at a time",
                         bytes, most.sceneBytes));
-    if (most.sceneTriangles == 0)
-        return absl::OkStatus();
     std::uint64_t triangles = 0;
-    for (const std::string& name : names) {
-        ASSIGN_OR_RETURN(const std::uint64_t of, data_.trianglesOf(name, stop));
-        triangles += of;
+    for (const NamedFile& file : files) {
+        const absl::StatusOr<std::uint64_t> of = data_.trianglesOf(file.name, stop);
+        if (absl::IsFailedPrecondition(of.status()))
+            return atObject(file.object, of.status());
+        RETURN_IF_ERROR(of.status());
+        triangles += *of;
     }
-    if (triangles <= most.sceneTriangles)
+    if (most.sceneTriangles == 0 || triangles <= most.sceneTriangles)
         return absl::OkStatus();
     return absl::InvalidArgumentError(
         fmt::format("scene.objects have {} triangles; at most {} are drawn at a time", triangles,
@@ -145,7 +146,7 @@ absl::StatusOr<fabric::Scene> SceneDesk::resolved(v1::Scene message,
                                absl::InvalidArgumentError(
                                    fmt::format("scene.objects has {} objects; it must have 1 to {}",
                                                message.objects_size(), most)));
-    std::vector<std::string> names;  // of the data folder
+    std::vector<NamedFile> files;
     for (int i = 0; i < message.objects_size(); ++i) {
         v1::SceneObject& object = *message.mutable_objects(i);
         if (object.imagery_size() > 0)
@@ -162,11 +163,11 @@ absl::StatusOr<fabric::Scene> SceneDesk::resolved(v1::Scene message,
         if (!path.ok())
             return atObject(i, path.status());
         if (*path != name)
-            names.push_back(
-                std::filesystem::path(*path).lexically_relative(folder_->path()).string());
+            files.push_back(
+                {i, std::filesystem::path(*path).lexically_relative(folder_->path()).string()});
         name = *std::move(path);
     }
-    if (absl::Status status = checkSize(names, stop); absl::IsInvalidArgument(status))
+    if (absl::Status status = checkSize(files, stop); absl::IsInvalidArgument(status))
         return quotas_.counted(observe::Quota::Scene, status);
     else if (!status.ok())
         return status;

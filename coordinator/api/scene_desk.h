@@ -40,7 +40,8 @@ public:
     absl::Status show(v1::Scene scene, const std::stop_token& stop);
 
     /// `scene` by where its files lie. Errors: InvalidArgument, naming the object and field, or as
-    /// it is larger than the quotas allow; NotFound (a file); Cancelled after `stop`.
+    /// it is larger than the quotas allow; NotFound (a file); FailedPrecondition (a file of the
+    /// data folder that cannot be read, as far as can be told here); Cancelled after `stop`.
     absl::StatusOr<fabric::Scene> resolved(v1::Scene scene, const std::stop_token& stop) const;
 
     /// What is drawn now.
@@ -50,8 +51,12 @@ private:
     absl::StatusOr<std::string> pathOf(const std::string& name, const char* ending) const;
     v1::Scene named(const fabric::Scene& scene) const;
     absl::Status showKept(const fabric::Scene& commandLine) const;
-    absl::Status checkSize(const std::vector<std::string>& names,
-                           const std::stop_token& stop) const;
+    /// An object of a scene, by its position, and its file, by its name in the data folder.
+    struct NamedFile {
+        int object;
+        std::string name;
+    };
+    absl::Status checkSize(const std::vector<NamedFile>& files, const std::stop_token& stop) const;
 
     const std::optional<access::DataFolder>& folder_;
     DataDesk& data_;

@@ -8,6 +8,7 @@
 #include "coordinator/config/eqc_writer.h"
 #include "coordinator/config/message_to_statements.h"
 #include "eyrie/v1/configuration.pb.h"
+#include "wire/json_error.h"
 
 namespace eyrie::config {
 namespace {
@@ -73,8 +74,10 @@ Configuration readJson(std::string_view text, Findings& findings) {
     const auto status =
         google::protobuf::util::JsonStringToMessage({text.data(), text.size()}, &message);
     if (!status.ok()) {
-        findings.error({}, fmt::format("this is no JSON of a configuration: {}",
-                                       std::string(status.message())));
+        findings.error(
+            {}, fmt::format(
+                    "this is no JSON of a configuration: {}",
+                    wire::jsonError({status.message().data(), status.message().size()}).text()));
         return {};
     }
     return fromMessage(message, findings);

@@ -287,33 +287,49 @@ private:
 
     prometheus::Registry registry_;
     Family<Counter>& frames_ =
-        counters("eyrie_frames_total", "Frames: complete, degraded (data were missing) or failed.");
+        counters("eyrie_frames_total",
+                 "Frames that browsers and programs asked for, once each however many renderers, "
+                 "views or eyes: complete, degraded (drawn, but data were missing), failed, or "
+                 "cancelled (who had asked went away).");
     Counter& complete_ = frames_.Add({{"result", "complete"}});
     Counter& degraded_ = frames_.Add({{"result", "degraded"}});
     Counter& failed_ = frames_.Add({{"result", "failed"}});
     Counter& cancelled_ = frames_.Add({{"result", "cancelled"}});
-    Family<Histogram>& stages_ =
-        histograms("eyrie_frame_stage_seconds", "Where the time of frames goes.");
+    Family<Histogram>& stages_ = histograms(
+        "eyrie_frame_stage_seconds",
+        "Where the time of frames goes, by stage; those of channels and browsers once for each.");
     std::vector<Histogram*> byStage_;
     Histogram& error_ =
-        histograms("eyrie_frame_error_pixels", "Screen-space error promised with each frame.")
+        histograms("eyrie_frame_error_pixels",
+                   "Screen-space error promised with each complete or degraded frame; "
+                   "those without a finite one are not in it.")
             .Add({}, kPixels);
     Counter& unbounded_ =
-        counter("eyrie_frames_unbounded_total", "Frames without a finite bound on their error.");
-    Counter& triangles_ = counter("eyrie_triangles_total", "Triangles drawn.");
-    Counter& points_ = counter("eyrie_points_total", "Points drawn, in place of triangles.");
-    Counter& pages_ = counter("eyrie_pages_loaded_total", "Pages that renderers loaded.");
-    Counter& pageBytes_ =
-        counter("eyrie_page_bytes_loaded_total", "Of the pages that renderers loaded, as stored.");
+        counter("eyrie_frames_unbounded_total",
+                "Complete or degraded frames without a finite bound on their error.");
+    Counter& triangles_ =
+        counter("eyrie_triangles_total", "Triangles drawn for complete and degraded frames.");
+    Counter& points_ =
+        counter("eyrie_points_total", "Points drawn for the same frames, in place of triangles.");
+    Counter& pages_ =
+        counter("eyrie_pages_loaded_total", "Pages that renderers loaded, as told with frames.");
+    Counter& pageBytes_ = counter("eyrie_page_bytes_loaded_total",
+                                  "Bytes of the pages that renderers loaded, as stored.");
     Gauge& missing_ = gauge("eyrie_pages_missing",
                             "Pages that the last frame needed and renderers were yet loading.");
-    Gauge& unreadable_ =
-        gauge("eyrie_pages_unreadable", "Those of the last frame that could not be read.");
-    Family<Counter>& received_ = counters("eyrie_received_bytes_total", "Bytes received.");
-    Family<Counter>& sent_ = counters("eyrie_sent_bytes_total", "Bytes sent.");
+    Gauge& unreadable_ = gauge("eyrie_pages_unreadable",
+                               "Pages that the last frame needed and that could not be read.");
+    Family<Counter>& received_ = counters(
+        "eyrie_received_bytes_total",
+        "Bytes received, as they are before encryption: HTTP with its headers, WebSockets' "
+        "messages, and the pixels in renderers' messages as coded.");
+    Family<Counter>& sent_ =
+        counters("eyrie_sent_bytes_total",
+                 "Bytes sent, as they are before encryption, by HTTP with its headers and in "
+                 "WebSockets' messages.");
     Family<Counter>& pictures_ =
         counters("eyrie_renderer_pictures_total",
-                 "Pictures from renderers: in memory of this machine, or in messages.");
+                 "Pictures of channels from renderers: in memory of this machine, or in messages.");
     Counter& inMemory_ = pictures_.Add({{"way", "memory"}});
     Counter& inMessages_ = pictures_.Add({{"way", "messages"}});
     Gauge& viewers_ = gauge("eyrie_viewers", "Browsers that are connected.");
@@ -327,8 +343,11 @@ private:
     Counter& late_ = reissued_.Add({{"reason", "late"}});
     Counter& afterFailure_ = reissued_.Add({{"reason", "failed"}});
     Family<Gauge>& memory_ =
-        gauges("eyrie_renderer_memory_bytes", "What a renderer holds for its scene.");
-    Family<Counter>& refused_ = counters("eyrie_requests_refused_total", "HTTP requests refused.");
+        gauges("eyrie_renderer_memory_bytes",
+               "What a renderer's caches and terrains' indices hold, as of its last channel.");
+    Family<Counter>& refused_ = counters(
+        "eyrie_requests_refused_total",
+        "HTTP requests answered with 400 or more, and answers that were not taken in time.");
     Family<Counter>& peersRefused_ =
         counters("eyrie_peers_refused_total", "Peers turned away, by door and reason.");
     Counter& handshakes_ = peersRefused_.Add({{"door", "http"}, {"reason", "handshake"}});

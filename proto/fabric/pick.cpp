@@ -12,6 +12,11 @@
 namespace eyrie::fabric {
 
 absl::Status validate(const PickRequest& request) {
+    // First, for a camera may have come from it.
+    if (!(std::abs(request.exaggeration) <= kMaxExaggeration))
+        return absl::InvalidArgumentError(
+            fmt::format("exaggeration is {}; it must be from {} to {}", request.exaggeration,
+                        -kMaxExaggeration, kMaxExaggeration));
     RETURN_IF_ERROR(validate(request.camera));
     if (request.sight)
         RETURN_IF_ERROR(validate(*request.sight));
@@ -28,10 +33,6 @@ absl::Status validate(const PickRequest& request) {
         return absl::InvalidArgumentError(
             fmt::format("place ({}, {}) is not in the view of {} x {} pixels", request.place.x,
                         request.place.y, request.viewWidth, request.viewHeight));
-    if (!(std::abs(request.exaggeration) <= kMaxExaggeration))
-        return absl::InvalidArgumentError(
-            fmt::format("exaggeration is {}; it must be from {} to {}", request.exaggeration,
-                        -kMaxExaggeration, kMaxExaggeration));
     return absl::OkStatus();
 }
 

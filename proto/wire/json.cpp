@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <google/protobuf/descriptor.h>
 #include <google/protobuf/util/json_util.h>
 #include <google/protobuf/wrappers.pb.h>
 
@@ -15,10 +16,34 @@
 #include "fabric/status.h"
 #include "wire/camera.h"
 #include "wire/flight.h"
+#include "wire/json_error.h"
 #include "wire/look.h"
 
 namespace eyrie::wire {
 namespace {
+
+using google::protobuf::Descriptor;
+
+/// The message that has the last field of `path`, such as "keys[2].camera.eye".
+const Descriptor* holderOf(std::string_view path, const Descriptor* message) {
+    for (std::size_t dot = path.find('.'); dot != path.npos; dot = path.find('.')) {
+        const std::string_view name = path.substr(0, std::min(dot, path.find('[')));
+        const auto* field = message->FindFieldByCamelcaseName(std::string(name));
+        if (field == nullptr || field->message_type() == nullptr)
+            return message;
+        message = field->message_type();
+        path.remove_prefix(dot + 1);
+    }
+    return message;
+}
+
+/// "eye, target, up, fovyDegrees".
+std::string fieldsOf(const Descriptor& message) {
+    std::string list;
+    for (int i = 0; i < message.field_count(); ++i)
+        list += fmt::format("{}{}", list.empty() ? "" : ", ", message.field(i)->json_name());
+    return list;
+}
 
 absl::Status parse(std::string_view text, std::string_view name, std::string_view kind,
                    google::protobuf::Message& message) {
@@ -26,8 +51,13 @@ absl::Status parse(std::string_view text, std::string_view name, std::string_vie
         google::protobuf::util::JsonStringToMessage({text.data(), text.size()}, &message);
     if (status.ok())
         return absl::OkStatus();
+    const JsonError error = jsonError({status.message().data(), status.message().size()});
+    const std::string known =
+        error.isUnknown ? fmt::format("; there is {}",
+                                      fieldsOf(*holderOf(error.field, message.GetDescriptor())))
+                        : "";
     return absl::InvalidArgumentError(
-        fmt::format("{}: this is no {} file: {}", name, kind, std::string(status.message())));
+        fmt::format("{}: this is no {} file: {}{}", name, kind, error.text(), known));
 }
 
 std::string print(const google::protobuf::Message& message,

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "fabric/replaceable.h"
+#include "fabric/status.h"
 #include "renderer/import/gdal_handles.h"
 
 namespace eyrie::import {
@@ -18,6 +20,7 @@ absl::Status writeGeoTiff(const terrain::HeightGrid& grid, const std::string& pa
     if (std::error_code ignored; !std::filesystem::is_directory(folder, ignored))
         return absl::NotFoundError(fmt::format(
             "{}: cannot create it: {} is no folder; create it first", path, folder.string()));
+    RETURN_IF_ERROR(fabric::checkReplaceable(path));
     QuietGdal gdal;
     const std::string partial = fmt::format("{}.partial-{}", path, getpid());
     const auto failed = [&](const char* what) {

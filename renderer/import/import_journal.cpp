@@ -71,8 +71,12 @@ absl::StatusOr<ImportJournal> ImportJournal::open(const std::string& path, std::
             "{}: another import into the same file is at work; wait for it, or stop it", path));
     if (!startsOver)
         journal.read();
-    if (journal.isEmpty())
-        RETURN_IF_ERROR(journal.clear());
+    if (!journal.isEmpty())
+        return journal;
+    if (const absl::Status cleared = journal.clear(); !cleared.ok()) {
+        journal.remove();  // on a full disk: it says nothing
+        return cleared;
+    }
     return journal;
 }
 

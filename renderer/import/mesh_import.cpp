@@ -236,7 +236,7 @@ absl::StatusOr<MeshImportReport> importMesh(const std::vector<std::string>& sour
     RETURN_IF_ERROR(checkPaths(sourcePaths, outPath));
     RETURN_IF_ERROR(checkOptions(options));
     const Stopwatch watch;
-    ASSIGN_OR_RETURN(mesh::OutputFile out, mesh::OutputFile::create(outPath));
+    ASSIGN_OR_RETURN(mesh::OutputFile out, mesh::OutputFile::create(outPath, control.stop));
     auto report =
         finish(withinMemory(nameOf(sourcePaths),
                             [&] { return importFiles(sourcePaths, out, options, control); }),
@@ -252,7 +252,7 @@ absl::StatusOr<MeshImportReport> importMesh(TriangleMesh source, const std::stri
                                             std::uint64_t sourceHash) {
     RETURN_IF_ERROR(checkOptions(options));
     const Stopwatch watch;
-    ASSIGN_OR_RETURN(mesh::OutputFile out, mesh::OutputFile::create(outPath));
+    ASSIGN_OR_RETURN(mesh::OutputFile out, mesh::OutputFile::create(outPath, control.stop));
     return finish(
         withinMemory(outPath,
                      [&] { return build(std::move(source), out, options, control, sourceHash); }),

@@ -67,8 +67,9 @@ std::string header(const TriangleMesh& mesh, bool asFloat) {
 
 }  // namespace
 
-absl::Status writePly(const TriangleMesh& mesh, const std::string& path) {
-    ASSIGN_OR_RETURN(mesh::OutputFile out, mesh::OutputFile::create(path));
+absl::Status writePly(const TriangleMesh& mesh, const std::string& path,
+                      const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(mesh::OutputFile out, mesh::OutputFile::create(path, stop));
     const bool asFloat = fitsFloat(mesh);
     const std::string text = header(mesh, asFloat);
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(text))));

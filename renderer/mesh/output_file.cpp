@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -12,14 +13,18 @@
 #include <absl/status/status.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "fabric/no_folder.h"
+#include "fabric/replaceable.h"
 #include "fabric/status.h"
 
 namespace eyrie::mesh {
 namespace {
+
+/// How soon a stop is noticed.
+constexpr int kPollMilliseconds = 20;
 
 bool isSame(const struct stat& a, const struct stat& b) {
     return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
@@ -47,16 +52,19 @@ std::optional<struct stat> inItsPlace(const std::string& path) {
 
 }  // namespace
 
-absl::StatusOr<OutputFile> OutputFile::create(const std::string& path) {
-    RETURN_IF_ERROR(fabric::checkNoFolder(path));
+absl::StatusOr<OutputFile> OutputFile::create(const std::string& path, std::stop_token stop) {
     if (const auto target = inItsPlace(path)) {
         const int own = ownOutput(*target);
         const int fd = own >= 0 ? ::fcntl(own, F_DUPFD_CLOEXEC, 0)
                                 : ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
         if (fd < 0)
             return fabric::writeError(path, "cannot open it", errno);
-        return OutputFile(path, {}, fd);
+        OutputFile file(path, {}, fd);
+        file.isPipe_ = S_ISFIFO(target->st_mode);
+        file.stop_ = std::move(stop);
+        return file;
     }
+    RETURN_IF_ERROR(fabric::checkReplaceable(path));
     std::string partial = fmt::format("{}.partial-{}", path, ::getpid());
     const int fd =
         ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
@@ -90,9 +98,24 @@ OutputFile::~OutputFile() {
         ::unlink(partialPath_.c_str());
 }
 
+/// Until a pipe takes PIPE_BUF bytes without waiting. Stop signals are blocked, so that nothing
+/// would end a write that waits.
+absl::Status OutputFile::awaitRoom() const {
+    pollfd room{fd_, POLLOUT, 0};
+    while (::poll(&room, 1, kPollMilliseconds) <= 0)
+        if (stop_.stop_requested())
+            return absl::CancelledError(
+                fmt::format("{}: stopped while nobody read on from this pipe", path_));
+    return absl::OkStatus();
+}
+
 absl::Status OutputFile::write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
-        const ssize_t written = ::write(fd_, bytes.data(), bytes.size());
+        if (isPipe_)
+            RETURN_IF_ERROR(awaitRoom());
+        const std::size_t atOnce =
+            isPipe_ ? std::min<std::size_t>(PIPE_BUF, bytes.size()) : bytes.size();
+        const ssize_t written = ::write(fd_, bytes.data(), atOnce);
         if (written < 0 && errno == EINTR)
             continue;
         if (written < 0)

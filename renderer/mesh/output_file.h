@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <utility>
 
@@ -18,9 +19,10 @@ namespace eyrie::mesh {
 /// place.
 class OutputFile {
 public:
+    /// Once `stop` asks for it, nothing waits any more for room in a pipe that is not read.
     /// Errors: InvalidArgument (a folder has this name), NotFound (no such folder),
     /// PermissionDenied, Unavailable.
-    static absl::StatusOr<OutputFile> create(const std::string& path);
+    static absl::StatusOr<OutputFile> create(const std::string& path, std::stop_token stop = {});
     /// Whether create() would do. Leaves pipes alone: who reads one would see it end. Errors: as
     /// above.
     static absl::Status check(const std::string& path);
@@ -33,18 +35,22 @@ public:
           partialPath_(std::move(other.partialPath_)),
           fd_(std::exchange(other.fd_, -1)),
           size_(other.size_),
-          isUnnamed_(other.isUnnamed_) {}
+          isUnnamed_(other.isUnnamed_),
+          isPipe_(other.isPipe_),
+          stop_(std::move(other.stop_)) {}
     OutputFile& operator=(OutputFile&& other) noexcept {
         std::swap(path_, other.path_);
         std::swap(partialPath_, other.partialPath_);
         std::swap(fd_, other.fd_);
         std::swap(size_, other.size_);
         std::swap(isUnnamed_, other.isUnnamed_);
+        std::swap(isPipe_, other.isPipe_);
+        std::swap(stop_, other.stop_);
         return *this;
     }
     ~OutputFile();
 
-    /// Appends. Errors: ResourceExhausted (disk full), Unavailable.
+    /// Appends. Errors: ResourceExhausted (disk full), Unavailable; Cancelled (`stop`, of a pipe).
     absl::Status write(std::span<const std::byte> bytes);
     /// Appends zeros up to the next multiple of `alignment`.
     absl::Status padTo(std::uint64_t alignment);
@@ -66,11 +72,15 @@ private:
           fd_(fd),
           isUnnamed_(isUnnamed) {}
 
+    absl::Status awaitRoom() const;
+
     std::string path_;
     std::string partialPath_;  ///< empty: unnamed, or written in its place
     int fd_;
     std::uint64_t size_ = 0;
     bool isUnnamed_;
+    bool isPipe_ = false;
+    std::stop_token stop_;
 };
 
 }  // namespace eyrie::mesh

@@ -14,7 +14,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-#include "fabric/no_folder.h"
+#include "fabric/replaceable.h"
 #include "fabric/status.h"
 #include "renderer/terrain/eyt_layout.h"
 #include "renderer/terrain/normal_map.h"
@@ -155,7 +155,7 @@ EytWriter::~EytWriter() {
 }
 
 absl::StatusOr<EytWriter> EytWriter::create(const std::string& path) {
-    RETURN_IF_ERROR(fabric::checkNoFolder(path));
+    RETURN_IF_ERROR(fabric::checkReplaceable(path));
     std::string partialPath = fmt::format("{}.partial-{}", path, getpid());
     const int fd = open(partialPath.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (fd < 0)
@@ -164,7 +164,7 @@ absl::StatusOr<EytWriter> EytWriter::create(const std::string& path) {
 }
 
 absl::StatusOr<EytWriter> EytWriter::resume(const std::string& path) {
-    RETURN_IF_ERROR(fabric::checkNoFolder(path));
+    RETURN_IF_ERROR(fabric::checkReplaceable(path));
     std::string partialPath = path + ".partial";
     // Never through a link: what that leads to is somebody else's.
     const int fd = open(partialPath.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);

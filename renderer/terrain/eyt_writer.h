@@ -44,7 +44,8 @@ private:
 class EytWriter {
 public:
     /// Into `PATH.partial-<process id>`, which goes with the writer unless that commits.
-    /// Errors: NotFound (no such folder), PermissionDenied, Unavailable.
+    /// Errors: InvalidArgument (a folder, a pipe or a device has this name), NotFound (no such
+    /// folder), PermissionDenied, Unavailable.
     static absl::StatusOr<EytWriter> create(const std::string& path);
 
     /// Into `PATH.partial`, where an earlier writer may have left pages that takeWritten() takes.

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <future>
 #include <iterator>
 #include <mutex>
@@ -17,6 +18,7 @@
 #include <unistd.h>
 
 #include "cli/image_files.h"
+#include "cli/log.h"
 #include "cli/output_reader.h"
 #include "cli/picture_bands.h"
 #include "cli/progress_bar.h"
@@ -328,6 +330,42 @@ TEST(ProgressBar, WritesJsonForPrograms) {
               "{\"stage\": \"reading\", \"fraction\": 0}\n"
               "{\"stage\": \"reading\", \"fraction\": 0.5}\n"
               "{\"stage\": \"writing\", \"fraction\": 0}\n");
+}
+
+/// What is told on standard error while entries of the log are JSON.
+std::string toldAsJson(const std::function<void()>& tells) {
+    startLog({true, "", "import"});
+    testing::internal::CaptureStderr();
+    tells();
+    const std::string told = testing::internal::GetCapturedStderr();
+    startLog();
+    return told;
+}
+
+TEST(ProgressBar, WritesEntriesOfAJsonLog) {
+    EXPECT_THAT(toldAsJson([] {
+                    ProgressBar bar("a.ply", 10, "MB", ProgressBar::styleFor(false));
+                    bar.show("reading", 0, {});
+                }),
+                testing::MatchesRegex("\\{.*\"message\": \"a.ply: reading\"\\}\n"));
+}
+
+TEST(Tell, WritesEachLineAsAnEntryOfAJsonLog) {
+    EXPECT_THAT(toldAsJson([] {
+                    tell("one\ntwo\n");
+                    tell("");
+                    tellErrors("three");
+                }),
+                testing::MatchesRegex("\\{.*\"info\".*\"one\"\\}\n"
+                                      "\\{.*\"info\".*\"two\"\\}\n"
+                                      "\\{.*\"error\".*\"three\"\\}\n"));
+}
+
+TEST(Tell, WritesLinesAsTheyAreForPeople) {
+    testing::internal::CaptureStderr();
+    tell("one\ntwo\n");
+    tell("three");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "one\ntwo\nthree\n");
 }
 
 TEST(ProgressBar, WritesNothingWhenQuiet) { EXPECT_EQ(written(ProgressBar::Style::Quiet), ""); }

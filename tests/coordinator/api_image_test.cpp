@@ -2,6 +2,7 @@
 // Pictures, depths, picks and profiles by REST.
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -43,6 +44,27 @@ TEST_F(Rest, PicturesComeAsTheyAreAskedFor) {
     const RestAnswer raw = get("/image?width=2&height=1&format=IMAGE_FORMAT_RAW");
     EXPECT_EQ(raw.contentType, "application/octet-stream");
     EXPECT_EQ(*raw.body, std::string("\x5A\x78\x3C\xFF\x5A\x78\x3C\xFF", 8));
+}
+
+TEST_F(Rest, PicturesWithoutACameraShowHeightsAsTheyAreExaggerated) {
+    coordinator::Status status = frames_.status();
+    fabric::GroundGrid grid;
+    grid.worldFromGrid[0] *= 50;
+    grid.worldFromGrid[1] *= 50;
+    status.sceneInfo.ground = std::make_shared<const std::vector<fabric::GroundGrid>>(1, grid);
+    frames_.setStatus(status);
+    ASSERT_EQ(send("POST", "/image", R"({"width":20,"height":10})").status, 200);
+    const double low = frames_.requests().back().camera.eye.z;
+    ASSERT_EQ(
+        send("POST", "/image", R"({"width":20,"height":10,"look":{"exaggeration":50}})").status,
+        200);
+    EXPECT_GT(frames_.requests().back().camera.eye.z, 400) << "the highest is drawn at 500";
+    EXPECT_LT(low, 200);
+    frames_.setPick([&](const fabric::PickRequest& request) -> absl::StatusOr<fabric::Picked> {
+        EXPECT_GT(request.camera.eye.z, 400);
+        return fabric::Picked{};
+    });
+    EXPECT_EQ(send("POST", "/pick", R"({"x":640,"y":360,"exaggeration":50})").status, 200);
 }
 
 TEST_F(Rest, DepthComesInMetresAndItsTopRowFirst) {

@@ -147,7 +147,7 @@ TEST_F(ApiQuotas, OfASceneByObjectsBytesAndTriangles) {
     quotas.sceneTriangles = 0;
     makeApi(quotas, programs);
     EXPECT_EQ(ask("PUT", "/scene", scene(3)).status, 200);
-    EXPECT_EQ(runs, 2);
+    EXPECT_EQ(runs, 3) << "whether it can be opened, though its triangles do not count";
 }
 
 TEST_F(ApiQuotas, OfCallsASecondOfAnAddress) {

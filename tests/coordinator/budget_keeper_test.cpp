@@ -236,72 +236,6 @@ TEST(BudgetKeeper, TheMarginIsForCutsAlone) {
     EXPECT_LE(careful.millisecondsATriangle, 2.001 * learned.millisecondsATriangle);
 }
 
-TEST(CutMargin, HoldsItsShareOfNewViews) {
-    std::mt19937 random(7);
-    std::normal_distribution<double> doublings(0, 0.5);
-    CutMargin margin;
-    EXPECT_EQ(margin.factor(), 1);
-    int longer = 0;
-    constexpr int kViews = 2000;
-    for (int i = 0; i < kViews; ++i) {
-        const double taken = 100 * std::exp2(doublings(random));
-        longer += taken > 100 * margin.factor() ? 1 : 0;
-        margin.record(100, taken, 1);
-    }
-    EXPECT_NEAR(longer, (1 - CutMargin::kQuantile) * kViews, 0.05 * kViews);
-    for (int i = 0; i < 100; ++i) margin.record(100, 1e6, 1);
-    EXPECT_DOUBLE_EQ(margin.factor(), 2);
-    for (int i = 0; i < 100; ++i) margin.record(1e6, 100, 1);
-    EXPECT_EQ(margin.factor(), 1);
-}
-
-fabric::Camera cameraAt(double azimuth, double distance = 10) {
-    fabric::Camera camera;
-    camera.eye = {distance * std::cos(azimuth), distance * std::sin(azimuth), 0};
-    camera.target = {0, 0, 0};
-    return camera;
-}
-
-TEST(ViewChange, TellsCutsFromMovements) {
-    ViewChange view;
-    EXPECT_TRUE(view.isCut(cameraAt(0)));
-    view.follow(cameraAt(0));
-    for (int i = 1; i < 50; ++i) {
-        const double azimuth = 0.05 * i;
-        EXPECT_FALSE(view.isCut(cameraAt(azimuth))) << i;
-        view.follow(cameraAt(azimuth));
-        fabric::Camera turned = cameraAt(azimuth);
-        turned.target = 2.0 * turned.eye;
-        EXPECT_TRUE(view.isCut(turned)) << i;
-        EXPECT_TRUE(view.isCut(cameraAt(azimuth, 50))) << i;
-        fabric::Camera zoomed = cameraAt(azimuth);
-        zoomed.fovYDegrees /= 3;
-        EXPECT_TRUE(view.isCut(zoomed)) << i;
-    }
-}
-
-TEST(ViewChange, EveryFifthFrameMayBeACut) {
-    ViewChange view;
-    view.follow(cameraAt(0));
-    for (int cut = 1; cut < 20; ++cut) {
-        const double azimuth = 2.0 * cut;
-        EXPECT_TRUE(view.isCut(cameraAt(azimuth))) << cut;
-        for (int i = 0; i < 5; ++i) {
-            view.follow(cameraAt(azimuth + 0.02 * i));
-            EXPECT_FALSE(view.isCut(cameraAt(azimuth + 0.02 * (i + 1)))) << cut << " " << i;
-        }
-    }
-}
-
-/// A quarter turn a frame is a movement, too, once it goes on.
-TEST(ViewChange, FastMovementsAreNoCuts) {
-    ViewChange view;
-    for (int i = 0; i < 10; ++i) {
-        EXPECT_EQ(view.isCut(cameraAt(1.5 * i)), i < 2) << i;
-        view.follow(cameraAt(1.5 * i));
-    }
-}
-
 /// A step in what a triangle costs can be known only once it has been seen, twice.
 TEST(BudgetKeeper, AStepInCostIsFollowedInThreeFrames) {
     for (const double step : {3.0, 1 / 3.0}) {
@@ -471,57 +405,6 @@ RC_GTEST_PROP(BudgetKeeper, PlansAreSentWhateverWasMeasured, ()) {
         RC_ASSERT(fabric::validate(keeper.plan(request).budget).ok());
         RC_ASSERT(keeper.plan(request).width >= request.width / 4);
     }
-}
-
-TEST(TauForBudget, IsTheSmallestOfTheLadderThatFits) {
-    const fabric::CutTriangles triangles = [](double tau) {
-        return static_cast<std::uint64_t>(1e6 / tau);
-    };
-    for (const double last : {0.0, 1.0, 3.0, 16.0, 1000.0}) {
-        const fabric::BudgetUse use =
-            fabric::tauForBudget(0.5, {kBudget, 3, 1e-4, last}, 1, triangles);
-        EXPECT_LE(use.predictedMilliseconds, kBudget) << last;
-        EXPECT_EQ(use.triangles, triangles(use.tauPixels));
-        // From a tau where more than was aimed at is foreseen, less than all, it does not move.
-        const double finer = 3 + 1e-4 * 1e6 / (use.tauPixels * std::exp2(-0.25));
-        EXPECT_GT(finer, fabric::kBudgetAim * kBudget) << last;
-    }
-}
-
-TEST(TauForBudget, NeverGoesBelowWhatIsAskedForNorAboveTheCoarsest) {
-    const fabric::CutTriangles none = [](double) { return std::uint64_t{0}; };
-    const fabric::CutTriangles many = [](double) { return std::uint64_t{1} << 60; };
-    EXPECT_EQ(fabric::tauForBudget(0.7, {kBudget, 3, 1e-4, 4}, 1, none).tauPixels, 0.7);
-    EXPECT_EQ(fabric::tauForBudget(0.7, {kBudget, 3, 1e-4, 4}, 1, many).tauPixels, 16);
-    EXPECT_EQ(fabric::tauForBudget(100, {kBudget, 3, 1e-4, 4}, 1, many).tauPixels, 100);
-    EXPECT_FALSE(fabric::tauForBudget(0.7, {kBudget, 3, 1e-4, 4}, 1, many).isMet());
-    EXPECT_FALSE(fabric::tauForBudget(0.7, {kBudget, 100, 0, 4}, 1, none).isMet());
-}
-
-/// A cut takes time to be made: once where the last tau serves.
-TEST(TauForBudget, MakesFewCuts) {
-    int cuts = 0;
-    const fabric::CutTriangles triangles = [&cuts](double tau) {
-        ++cuts;
-        return static_cast<std::uint64_t>(1e6 / std::pow(tau, 1.5));
-    };
-    fabric::FrameBudget budget{kBudget, 3, 1e-4, 0};
-    budget.lastTauPixels = fabric::tauForBudget(0.5, budget, 1, triangles).tauPixels;
-    EXPECT_LE(cuts, 6);
-    cuts = 0;
-    fabric::tauForBudget(0.5, budget, 1, triangles);
-    EXPECT_LE(cuts, 2);
-    budget.lastTauPixels *= 4;
-    cuts = 0;
-    fabric::tauForBudget(0.5, budget, 1, triangles);
-    EXPECT_LE(cuts, 4);
-}
-
-TEST(FrameBudget, ATimeThatIsNoneIsRefused) {
-    for (const double wrong : {0.0, -5.0, 0.5, 20'000.0, std::numeric_limits<double>::quiet_NaN(),
-                               std::numeric_limits<double>::infinity()})
-        EXPECT_TRUE(absl::IsInvalidArgument(fabric::validateBudgetMilliseconds(wrong))) << wrong;
-    EXPECT_TRUE(fabric::validateBudgetMilliseconds(33).ok());
 }
 
 }  // namespace

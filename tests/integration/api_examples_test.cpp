@@ -343,6 +343,26 @@ TEST(Examples, SayInALineThatTheServerDoesNotAnswer) {
     }
 }
 
+TEST(Examples, SayHowTheyAreCalledWhereANumberIsNone) {
+    const test::TemporaryFolder folder;
+    const std::string place = folder.path("out");
+    for (const std::vector<std::string>& example :
+         std::vector<std::vector<std::string>>{{"turntable.py", place, "many"},
+                                               {"watch_statistics.py", "many"},
+                                               {"sessions.py", "tour", "0,0,up", "0,0,0"},
+                                               {"sessions.py", "tour", "shut"},
+                                               {"run_bench.py", "a.bench", place, "1,fine"}}) {
+        std::vector<std::string> command{"/usr/bin/env", "python3",
+                                         EYRIE_SOURCE_DIR "/examples/" + example[0],
+                                         "http://127.0.0.1:1"};
+        command.insert(command.end(), example.begin() + 1, example.end());
+        const test::Outcome outcome = test::run(command, seconds(60));
+        EXPECT_EQ(outcome.exit.status, 1) << example[0];
+        EXPECT_THAT(outcome.errors, HasSubstr(example[0] + " http://127.0.0.1:8080")) << example[0];
+        EXPECT_THAT(outcome.errors, testing::Not(HasSubstr("Traceback"))) << example[0];
+    }
+}
+
 TEST(Examples, BringTheTokenOfTheirEnvironment) {
     const test::TemporaryFolder folder;
     const std::string place = folder.path("out");

@@ -43,7 +43,7 @@ export interface Configured {
 /**
  * What to type in a shell for the same picture; SCENE stands for the files that are served, CONFIG
  * for the configuration's, of which the page knows no more. `configured`: null where it is made of the
- * renderers there are.
+ * renderers there are, which has one canvas with one screen.
  */
 export function renderCommand(
   view: SharedView,
@@ -61,7 +61,11 @@ export function renderCommand(
     `--shading ${shadingName(view.shading)}`,
     ...(look === undefined ? [] : ["--look look.json"]),
     ...(configured === null ? [] : ["--config CONFIG"]),
-    ...optionsOf({ ...output, layout: configured?.layout ?? "" }),
+    ...optionsOf(
+      configured === null
+        ? { ...output, canvas: "", segment: "", layout: "" }
+        : { ...output, ...configured },
+    ),
     "-o view.png",
   ];
   return `${files.join("\n")}\neyrie render SCENE ${options.join(" ")}\n`;

@@ -8,6 +8,7 @@ import {
   exaggerationAt,
   fromHex,
   nextInterval,
+  ofScene,
   placeOf,
   shapeAt,
   suggestedInterval,
@@ -137,5 +138,14 @@ describe("the panel's values", () => {
   it("are short", () => {
     expect([1, 2.5, 10, 0.25].map(times)).toEqual(["true", "× 2.5", "× 10", "× 0.25"]);
     expect([5, 250, 1000].map(metres)).toEqual(["5 m", "250 m", "1 km"]);
+  });
+});
+
+describe("a look of another scene", () => {
+  it("says nothing of objects that this one lacks", () => {
+    const own = { object: 1, colour: null, shading: Shading.FLAT };
+    const look = { ...defaultLook, hidden: [0, 7], objects: [own, { ...own, object: 9 }] };
+    expect(ofScene(look, 2)).toEqual({ ...defaultLook, hidden: [0], objects: [own] });
+    expect(ofScene(look, 10)).toBe(look);
   });
 });

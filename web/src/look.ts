@@ -110,6 +110,14 @@ export function withHidden(
   return isHidden ? [...others, object].sort((a, b) => a - b) : others;
 }
 
+/** `look` without what it says of objects that a scene of so many lacks; itself where that is nothing. */
+export function ofScene(look: Look, count: number): Look {
+  const hidden = look.hidden.filter((object) => object < count);
+  const objects = look.objects.filter(({ object }) => object < count);
+  const isWhole = hidden.length === look.hidden.length && objects.length === look.objects.length;
+  return isWhole ? look : { ...look, hidden, objects };
+}
+
 /** Of an object, whether `looks` have it or not. */
 export function objectLook(looks: readonly ObjectLook[], object: number): ObjectLook {
   return looks.find((one) => one.object === object) ?? { object, colour: null, shading: null };

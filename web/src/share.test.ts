@@ -197,6 +197,11 @@ describe("the command for one screen of a wall", () => {
     expect(text).toContain("--stereo 'anaglyph' -o view.png");
     expect(text).not.toContain("--config");
   });
+
+  it("names the only screen there is no more than its configuration", () => {
+    const text = command({ ...usualOutput, canvas: "0", segment: "0", eye: "left" }, null);
+    expect(text).toContain("--shading smooth --eye 'left' -o view.png");
+  });
 });
 
 describe("what of a configuration a picture is seen by", () => {
@@ -208,6 +213,7 @@ describe("what of a configuration a picture is seen by", () => {
 
   it("is nothing where it is made of the renderers there are", () => {
     expect(configuredFor(made, usualOutput, false)).toBeNull();
+    expect(configuredFor(made, { ...usualOutput, canvas: "0", segment: "0" }, false)).toBeNull();
   });
 
   it("is the layout that its canvas shows, where that has others", () => {

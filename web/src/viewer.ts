@@ -2,6 +2,7 @@
 import type { Camera } from "./camera/camera";
 import type { Keys } from "./camera/fly";
 import type { Look } from "./look";
+import { ofScene } from "./look";
 import { isUsable } from "./camera/camera";
 import { Controls } from "./camera/controls";
 import type { CameraHolder } from "./camera/controls";
@@ -313,7 +314,18 @@ export class Viewer implements CameraHolder {
 
   show(view: SharedView): void {
     applySettings(this.state, view);
+    this.leaveOutAbsent();
     this.move(view.camera, performance.now());
+  }
+
+  /** A link may be of another scene; it can be held against this one once that is there. */
+  private leaveOutAbsent(): void {
+    const { sceneBounds, objectNames = [] } = this.state.session.value ?? {};
+    if (sceneBounds === undefined || this.isWatching) return;
+    const look = ofScene(this.state.look.value, objectNames.length);
+    if (look === this.state.look.value) return;
+    this.state.look.set(look);
+    this.state.notice.set("This view is of more objects than the scene has; they are left out");
   }
 
   /** Who watches cannot change what is led: the controls go back to it. */
@@ -401,6 +413,7 @@ export class Viewer implements CameraHolder {
     const { isElsewhere, hasOtherObjects } = this.scene.next(session);
     if (this.camera === null || isElsewhere) this.goHome();
     if (hasOtherObjects) this.forgetScene();
+    this.leaveOutAbsent();
     this.resize();
   }
 

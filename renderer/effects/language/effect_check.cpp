@@ -5,6 +5,7 @@
 #include <cctype>
 #include <map>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -100,12 +101,42 @@ const char* nameOf(StageKind kind) {
                                          : "compute";
 }
 
+bool renumbersLines(std::string_view line) {
+    constexpr std::string_view kBlanks = " \t\r";
+    constexpr std::string_view kDirective = "line";
+    const auto skipBlanks = [&] {
+        line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
+    };
+    skipBlanks();
+    if (!line.starts_with('#'))
+        return false;
+    line.remove_prefix(1);
+    skipBlanks();
+    return line.starts_with(kDirective);
+}
+
+/// The compiler's errors come back to files and lines by directives that are put in later.
+absl::Status checkLineNumbers(const Stage& stage) {
+    Place place = stage.bodyPlace;
+    std::string_view left = stage.body;
+    while (!left.empty()) {
+        const std::string_view line = left.substr(0, left.find('\n'));
+        if (renumbersLines(line))
+            return errorAt(place, "#line would have errors name other lines; leave it out");
+        left.remove_prefix(std::min(line.size() + 1, left.size()));
+        ++place.line;
+        place.column = 1;
+    }
+    return absl::OkStatus();
+}
+
 /// What holds in each file by itself.
 absl::Status checkFile(const EffectFile& file) {
     for (const Parameter& parameter : file.parameters) RETURN_IF_ERROR(checkParameter(parameter));
     for (const Uniform& uniform : file.uniforms) RETURN_IF_ERROR(checkUniform(uniform));
     for (const Input& input : file.inputs) RETURN_IF_ERROR(checkInput(input));
     for (const Pass& pass : file.passes) RETURN_IF_ERROR(checkPass(pass));
+    for (const Stage& stage : file.stages) RETURN_IF_ERROR(checkLineNumbers(stage));
     for (std::size_t i = 0; i < file.stages.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (file.stages[i].kind == file.stages[j].kind)

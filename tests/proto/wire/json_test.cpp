@@ -32,6 +32,45 @@ TEST(CameraJson, ARefusalNamesFileAndField) {
     EXPECT_THAT(refusal(""), testing::HasSubstr("c.json: this is no camera file"));
 }
 
+TEST(CameraJson, ARefusalSaysWhatWouldBeRight) {
+    const auto refusal = [](const char* text) {
+        const auto message = cameraFromJson(text, "c.json").status().message();
+        return std::string(message).substr(
+            std::string_view("c.json: this is no camera file: ").size());
+    };
+    EXPECT_EQ(refusal(R"({"eye":[0,1,"x"]})"), R"(eye[2] is "x"; it must be a number)");
+    EXPECT_EQ(refusal(R"({"fovyDegrees":"wide"})"),
+              R"(fovyDegrees is "wide"; it must be a number)");
+    EXPECT_EQ(refusal(R"({"fovyDegrees":[1]})"),
+              "fovyDegrees is a list; it must be a single value");
+    EXPECT_EQ(refusal(R"({"fovyDegrees":{}})"),
+              "fovyDegrees is an object; it must be a single value");
+    EXPECT_EQ(refusal(R"({"targt":[0,0,0]})"),
+              "there is no field 'targt'; there is eye, target, up, fovyDegrees");
+    EXPECT_EQ(refusal("[1]"), "the whole must be an object in braces");
+    EXPECT_EQ(refusal("{\"eye\":[0"),
+              "Unexpected end of string. Expected , or ] after array value.");
+}
+
+TEST(FlightJson, ARefusalNamesTheFieldFromTheTop) {
+    const auto refusal = [](const char* text) {
+        const auto message = flightFromJson(text, "f.json").status().message();
+        return std::string(message).substr(
+            std::string_view("f.json: this is no flight file: ").size());
+    };
+    EXPECT_EQ(refusal(R"({"keys":[{"camera":5}]})"),
+              "keys[0].camera is 5; it must be an object in braces");
+    EXPECT_EQ(refusal(R"({"keys":[{"camera":{"ey":[0]}}]})"),
+              "there is no field 'keys[0].camera.ey'; there is eye, target, up, fovyDegrees");
+}
+
+TEST(SceneJson, TwoFilesOfAnObjectAreAnErrorThatNamesTheSecond) {
+    const auto scene =
+        sceneMessageFromJson(R"({"objects":[{"terrain":"a","mesh":"b"}]})", "s.json");
+    EXPECT_THAT(std::string(scene.status().message()),
+                testing::HasSubstr("objects[0].mesh is beside another that stands for the same"));
+}
+
 TEST(FlightJson, TheFormOfTheDesignIsRead) {
     const fabric::Flight flight =
         flightFromJson(R"({"keys":[{"seconds":0,"camera":{"eye":[0,0,0],"target":[1,0,0]}},

@@ -10,6 +10,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "renderer/import/geotiff_writer.h"
 #include "renderer/import/terrain_synth.h"
@@ -171,6 +172,19 @@ TEST(TerrainImport, NamesTheFolderThatIsMissing) {
     EXPECT_NE(report.status().ToString().find("no/where.eyt"), std::string::npos);
     EXPECT_FALSE(writeGeoTiff(grid, folder.path("no/where.tif")).ok());
     EXPECT_TRUE(folder.files().empty());
+}
+
+TEST(TerrainImport, TakesThePlaceOfNoPipe) {
+    const TemporaryFolder folder;
+    const terrain::HeightGrid grid = test::hardGrid(GridKind::Smooth, 130, 130, 1);
+    for (const char* name : {"a.eyt", "a.tif"})
+        ASSERT_EQ(::mkfifo(folder.path(name).c_str(), 0600), 0);
+    const auto report = importTerrain(grid, {"grid", "", 0}, folder.path("a.eyt"), {});
+    EXPECT_TRUE(absl::IsInvalidArgument(report.status())) << report.status();
+    EXPECT_TRUE(absl::IsInvalidArgument(writeGeoTiff(grid, folder.path("a.tif"))));
+    EXPECT_TRUE(std::filesystem::is_fifo(folder.path("a.eyt")));
+    EXPECT_TRUE(std::filesystem::is_fifo(folder.path("a.tif")));
+    EXPECT_EQ(folder.files().size(), 2U);
 }
 
 TEST(TerrainImport, RefusesAGridWithoutAnyDataOrTriangle) {

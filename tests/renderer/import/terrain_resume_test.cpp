@@ -12,6 +12,7 @@
 #include "renderer/import/import_journal.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/import/terrain_synth.h"
+#include "tests/renderer/import/file_size_limit.h"
 #include "tests/renderer/import/terrain_fixture.h"
 
 namespace eyrie::import {
@@ -254,6 +255,13 @@ TEST(ImportJournal, ForgetsForGoodWhatFollowedAStepThatIsDoneAgain) {
 }
 
 /// Cut anywhere, a journal keeps the records before the cut and takes new ones after them.
+TEST(ImportJournal, LeavesNoFileWhereTheDiskIsFull) {
+    const test::TemporaryFolder folder;
+    const test::FileSizeLimit full(0);
+    EXPECT_FALSE(ImportJournal::open(folder.path("j"), 5, false).ok());
+    EXPECT_TRUE(folder.files().empty());
+}
+
 TEST(ImportJournal, KeepsWholeRecordsOfACutFile) {
     const test::TemporaryFolder folder;
     const std::string path = folder.path("journal");

@@ -5,11 +5,15 @@
 #include <cstdio>
 #include <filesystem>
 #include <span>
+#include <stop_token>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -99,6 +103,30 @@ TEST(OutputFile, WritesToAPipeAndLeavesItThere) {
     ::close(reader);
     EXPECT_TRUE(std::filesystem::is_fifo(pipe));
     EXPECT_THAT(folder.names(), testing::ElementsAre("pipe"));
+}
+
+/// How much of what was written to a pipe nobody has read.
+int unread(int fd) {
+    int bytes = 0;
+    EXPECT_EQ(::ioctl(fd, FIONREAD, &bytes), 0);
+    return bytes;
+}
+
+TEST(OutputFile, StopsWaitingForWhoDoesNotReadOnFromAPipe) {
+    const test::TemporaryFolder folder;
+    ASSERT_EQ(::mkfifo(folder.file("pipe").c_str(), 0600), 0);
+    const int reader = ::open(folder.file("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+    const int room = ::fcntl(reader, F_GETPIPE_SZ);
+    std::stop_source stop;
+    auto out = OutputFile::create(folder.file("pipe"), stop.get_token());
+    ASSERT_TRUE(out.ok()) << out.status();
+    const std::jthread stopping([&] {
+        while (unread(reader) < room) std::this_thread::yield();
+        stop.request_stop();
+    });
+    const std::vector<std::byte> bytes(static_cast<std::size_t>(room) + 1);
+    EXPECT_EQ(out->write(bytes).code(), absl::StatusCode::kCancelled);
+    ::close(reader);
 }
 
 TEST(OutputFile, LeavesADeviceWhereItIsBehindALink) {

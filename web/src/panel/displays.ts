@@ -58,11 +58,11 @@ const hasScreens = (canvases: readonly CanvasState[], seen: CanvasState | undefi
 /** By what of a configuration the picture is seen; null where there is none but the usual. */
 export function configuredFor(
   canvases: readonly CanvasState[],
-  { canvas, segment }: Output,
+  { canvas }: Output,
   throughWall: boolean,
 ): Configured | null {
   const seen = canvasOf(canvases, canvas);
-  if (!throughWall && canvas === "" && segment === "" && !hasScreens(canvases, seen)) return null;
+  if (!throughWall && !hasScreens(canvases, seen)) return null;
   const hasChoice = seen !== undefined && seen.layouts.length > 1 && seen.layout !== "OFF";
   return { layout: hasChoice ? seen.layout : "" };
 }

@@ -84,7 +84,7 @@ export function messageFor(situation: Situation): Message | null {
   if (session.place?.led === false)
     return {
       title: "Nobody leads",
-      text: "The picture appears when somebody who may steer joins this session and leads it.",
+      text: "The picture appears when somebody who may steer leads this session: from here by Take the lead, under Together in the panel.",
     };
   return { title: "Drawing the first picture", text: "It appears in a moment." };
 }

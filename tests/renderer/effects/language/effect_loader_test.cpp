@@ -133,6 +133,8 @@ TEST(EffectLoader, ErrorsOfMeaningNameTheStatementsPlace) {
         {"uniform float new;", "1:1: 'new' means something else in C++; choose another name"},
         {"uniform float create;", "1:1: 'create' means something else in C++; choose another name"},
         {"\nstage vertex {}", "3:1: a second vertex stage; the first is in line 2"},
+        {"stage shared {\n int a;\n # line 7\n}",
+         "3:1: #line would have errors name other lines; leave it out"},
         {"include \"b.effect\";",
          "1:10: \"b.effect\" is no block; blocks are called "
          "lower_case.block"},

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// Textures of files that Assimp reads.
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "renderer/import/assimp_reader.h"
+#include "renderer/import/obj_textures.h"
+#include "tests/renderer/mesh/temporary_folder.h"
+
+namespace eyrie::import {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// Three triangles: of glass with an image, cut out of it, and of neither.
+constexpr const char* kTexturedGltf =
+    R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0},
+{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":1},
+{"attributes":{"POSITION":0},"material":2}]}],
+"materials":[{"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.4],
+"baseColorTexture":{"index":0}}},
+{"alphaMode":"MASK","alphaCutoff":0.25,"doubleSided":true,
+"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},
+{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,0.1],"baseColorTexture":{"index":0}}}],
+"samplers":[{"wrapS":33071,"wrapT":10497}],"textures":[{"source":0,"sampler":0}],
+"images":[{"uri":"data:image/png;base64,QUJDRA=="}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+"min":[0,0,0],"max":[1,1,0]},{"bufferView":0,"componentType":5126,"count":3,"type":"VEC2"}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
+    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+
+TEST(AssimpReader, TakesMaterialsAndImagesThatAreInTheFile) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.gltf"), kTexturedGltf);
+    const auto mesh = readWithAssimp(folder.file("m.gltf"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_EQ(mesh->textures.size(), 1U);
+    EXPECT_THAT(mesh->textures[0].bytes,
+                ElementsAre(std::byte{'A'}, std::byte{'B'}, std::byte{'C'}, std::byte{'D'}));
+    EXPECT_EQ(mesh->textures[0].flags, mesh::kClampsU);
+    ASSERT_EQ(mesh->triangles.size(), 3U);
+    const auto materialOf = [&](std::size_t triangle) {
+        return mesh->materials[mesh->materialOf[mesh->triangles[triangle][0]]];
+    };
+    EXPECT_EQ(materialOf(0),
+              (mesh::Material{.image = 0, .flags = mesh::kIsBlended | mesh::kIsOneSided}));
+    EXPECT_EQ(materialOf(1),
+              (mesh::Material{.image = 0, .flags = mesh::kIsTwoSided, .alphaCutoff = 0.25F}));
+    EXPECT_EQ(materialOf(2), (mesh::Material{.flags = mesh::kIsOneSided}));
+    EXPECT_EQ(mesh->colours[mesh->triangles[0][0]], (fabric::Rgba{255, 255, 255, 102}));
+    EXPECT_EQ(mesh->colours[mesh->triangles[2][0]], (fabric::Rgba{255, 0, 0, 255})) << "opaque";
+    EXPECT_EQ(mesh->textureCoordinates[mesh->triangles[0][1]], glm::vec2(0, 1)) << "v down";
+}
+
+/// kTexturedGltf with something else in a place.
+std::string texturedGltf(std::string_view from, std::string_view to) {
+    std::string text = kTexturedGltf;
+    return text.replace(text.find(from), from.size(), to);
+}
+
+/// Where the point at u = 1 or v = 1 of a texture comes to by a KHR_texture_transform, v downwards.
+glm::vec2 transformedPlace(std::string_view transform, bool isV) {
+    const test::TemporaryFolder folder;
+    std::string text = texturedGltf(
+        R"("baseColorTexture":{"index":0})",
+        fmt::format(
+            R"("baseColorTexture":{{"index":0,"extensions":{{"KHR_texture_transform":{{{}}}}}}})",
+            transform));
+    text.insert(1, R"("extensionsUsed":["KHR_texture_transform"],)");
+    const std::string_view places = R"("count":3,"type":"VEC2")";
+    if (!isV)  // the floats are 0 0 0 1 0 0 from the first, and 0 0 1 0 0 0 from the second
+        text.insert(text.find(places), R"("byteOffset":4,)");
+    test::writeFile(folder.file("m.gltf"), text);
+    const auto mesh = readWithAssimp(folder.file("m.gltf"));
+    EXPECT_TRUE(mesh.ok()) << mesh.status();
+    return mesh.ok() ? mesh->textureCoordinates[mesh->triangles[0][1]] : glm::vec2(0);
+}
+
+void expectTransform(std::string_view transform, glm::vec2 ofU, glm::vec2 ofV) {
+    SCOPED_TRACE(transform);
+    const glm::vec2 u = transformedPlace(transform, false);
+    const glm::vec2 v = transformedPlace(transform, true);
+    EXPECT_LT(glm::distance(u, ofU), 1e-6F) << u.x << ", " << u.y;
+    EXPECT_LT(glm::distance(v, ofV), 1e-6F) << v.x << ", " << v.y;
+}
+
+/// The second and third are the examples of the extension's own text: the lower left quarter of an
+/// image, turned clockwise, and an image upside down.
+TEST(AssimpReader, PutsTexturesWhereAGltfsTransformsDo) {
+    expectTransform("", {1, 0}, {0, 1});
+    expectTransform(R"("offset":[0,1],"rotation":1.57079632679,"scale":[0.5,0.5])", {0, 0.5F},
+                    {0.5F, 1});
+    expectTransform(R"("offset":[0,1],"scale":[1,-1])", {1, 1}, {0, 0});
+    expectTransform(R"("scale":[0.5,0.25])", {0.5F, 0}, {0, 0.25F});
+    expectTransform(R"("offset":[0.1,0.2],"rotation":0.52359877559,"scale":[2,3])",
+                    {1.8320508F, -0.8F}, {1.6F, 2.7980762F});
+}
+
+TEST(AssimpReader, SaysThatTexturesAreNotMirrored) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.gltf"), texturedGltf(R"("wrapT":10497)", R"("wrapT":33648)"));
+    const auto mesh = readWithAssimp(folder.file("m.gltf"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_THAT(mesh->notes,
+                testing::Contains(HasSubstr("textures of 3 materials ought to be mirrored")));
+}
+
+TEST(AssimpReader, ScalesAndShiftsTexturesOfAnObjAsItsMaterialsSay) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"),
+                    "mtllib m.mtl\r\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                    "usemtl my wall\nf 1/1 2/2 3/3\n");
+    const auto expect = [&](const std::string& mapKd, glm::vec2 ofU, glm::vec2 ofV) {
+        SCOPED_TRACE(mapKd);
+        test::writeFile(folder.file("m.mtl"), "newmtl my wall\r\nKd 1 1 1\r\n" + mapKd + "\r\n");
+        const auto mesh = readWithAssimp(folder.file("m.obj"));
+        ASSERT_TRUE(mesh.ok()) << mesh.status();
+        ASSERT_EQ(mesh->textures.size(), 1U);
+        EXPECT_EQ(mesh->textures[0].name, "a wall.png");
+        const auto& [origin, u, v] = mesh->triangles[0];
+        const auto& places = mesh->textureCoordinates;
+        EXPECT_LT(glm::distance(places[u], ofU), 1e-6F) << places[u].x << ", " << places[u].y;
+        EXPECT_LT(glm::distance(places[v], ofV), 1e-6F) << places[v].x << ", " << places[v].y;
+    };
+    // v goes up in the file and down here.
+    expect("map_Kd a wall.png", {1, 1}, {0, 0});
+    expect("map_Kd -s 2 3 1 -o 0.25 0.5 0 a wall.png", {2.25F, 0.5F}, {0.25F, -2.5F});
+    expect("map_Kd -s 2 3 a wall.png", {2, 1}, {0, -2});
+    expect("map_Kd -o 0.25 -clamp off -mm 0 1 -t 1 1 1 a wall.png", {1.25F, 1}, {0.25F, 0});
+}
+
+TEST(AssimpReader, SaysWhichTexturesItLeavesOut) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"),
+                    "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                    "usemtl leaf\nf 1/1 2/2 3/3\nusemtl wall\nf 2/2 1/1 3/3\n");
+    const auto notesOf = [&](const std::string& ofLeaf, const std::string& ofWall) {
+        test::writeFile(folder.file("m.mtl"), "newmtl leaf\nmap_Kd a.png\n" + ofLeaf +
+                                                  "newmtl wall\nmap_Kd b.png\n" + ofWall);
+        return readWithAssimp(folder.file("m.obj"))->notes;
+    };
+    EXPECT_THAT(notesOf("", ""), testing::IsEmpty());
+    EXPECT_THAT(notesOf("map_d a.png\n", ""), testing::IsEmpty()) << "the alpha of the same image";
+    EXPECT_THAT(notesOf("", "map_Bump c.png\nmap_Ks d.png\n"),
+                ElementsAre(testing::AllOf(HasSubstr("left out the textures of 1 materials"),
+                                           testing::Not(HasSubstr("opacity")))));
+    EXPECT_THAT(notesOf("map_d c.png\n", "map_Bump c.png\n"),
+                ElementsAre(testing::AllOf(HasSubstr("left out the textures of 2 materials"),
+                                           HasSubstr("opacity of 1"))));
+}
+
+TEST(ObjTextures, KeepNamesThatLookLikeNumbersOrOptions) {
+    EXPECT_EQ(parseMapKd("-s 2 2 2"), (ObjTexture{"2", {2, 2}}));
+    EXPECT_EQ(parseMapKd(" -s 2 3.png "), (ObjTexture{"3.png", {2, 1}}));
+    EXPECT_EQ(parseMapKd("-my texture.png"), (ObjTexture{"-my texture.png"}));
+    EXPECT_EQ(parseMapKd("-o"), ObjTexture());
+    EXPECT_EQ(parseMapKd(""), ObjTexture());
+}
+
+TEST(AssimpReader, TakesTheFirstOfARaceTracksTextures) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.acc"),
+                    "AC3Db\nMATERIAL \"\" rgb 0.4 0.4 0.4 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 1 "
+                    "trans 0\nOBJECT world\nkids 1\nOBJECT poly\nname \"a\"\n"
+                    "texture \"road.png\" base\ntexture \"skid.png\" skids\n"
+                    "texture empty_texture_no_mapping shad\nnumvert 3\n0 0 0\n1 0 0\n0 0 1\n"
+                    "numsurf 1\nSURF 0x10\nmat 0\nrefs 3\n0 0 0\n1 1 0\n2 0 1\nkids 0\n");
+    const auto mesh = readWithAssimp(folder.file("m.acc"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_EQ(mesh->textures.size(), 1U);
+    EXPECT_EQ(mesh->textures[0].name, "road.png");
+    EXPECT_EQ(mesh->colours[0], (fabric::Rgba{102, 102, 102, 255})) << "until it is there";
+}
+
+}  // namespace
+}  // namespace eyrie::import
