@@ -21,6 +21,7 @@ using google::protobuf::Struct;
 using google::protobuf::Value;
 
 constexpr int kMaxDepth = 16;
+constexpr int kWrongInput = 2;  ///< exit status
 
 Value valueOf(const Struct& json, const char* name) {
     const auto found = json.fields().find(name);
@@ -133,17 +134,18 @@ absl::StatusOr<v1::DataSet> DataSets::look(const std::string& name, const std::s
         if (known != known_.end() && known->second.version == version)
             return known->second.dataSet;
     }
-    ASSIGN_OR_RETURN(v1::DataSet set, ask(name, stop));
-    set.set_path(name);
+    ASSIGN_OR_RETURN(Seen seen, ask(name, stop));
+    seen.dataSet.set_path(name);
     const std::lock_guard lock(mutex_);
     if (known_.size() > 2 * kMost)
         known_.clear();  // of files that came and went
-    known_[name] = {version, set};
-    return set;
+    if (seen.isOfTheFile)
+        known_[name] = {version, seen.dataSet};
+    return seen.dataSet;
 }
 
-absl::StatusOr<v1::DataSet> DataSets::ask(const std::string& name,
-                                          const std::stop_token& stop) const {
+absl::StatusOr<DataSets::Seen> DataSets::ask(const std::string& name,
+                                             const std::stop_token& stop) const {
     LastWords words;
     ASSIGN_OR_RETURN(const ProgramEnd end,
                      run_(
@@ -155,12 +157,12 @@ absl::StatusOr<v1::DataSet> DataSets::ask(const std::string& name,
     if (status.ok()) {
         absl::StatusOr<v1::DataSet> set = dataSetOf(end.output);
         if (set.ok())
-            return set;
+            return Seen{*std::move(set), true};
         status = set.status();
     }
     v1::DataSet damaged;
     damaged.set_problem(stream::sanitised({status.message().data(), status.message().size()}));
-    return damaged;
+    return Seen{std::move(damaged), !end.crashed && end.code == kWrongInput};
 }
 
 }  // namespace eyrie::api

@@ -49,13 +49,17 @@ private:
         std::filesystem::file_time_type written = {};
         bool operator==(const Version&) const = default;
     };
+    struct Seen {
+        v1::DataSet dataSet;
+        bool isOfTheFile;  ///< and not of the moment: it is the same the next time
+    };
     struct Known {
         Version version;
         v1::DataSet dataSet;
     };
 
     absl::StatusOr<std::vector<std::string>> names() const;
-    absl::StatusOr<v1::DataSet> ask(const std::string& name, const std::stop_token& stop) const;
+    absl::StatusOr<Seen> ask(const std::string& name, const std::stop_token& stop) const;
 
     const access::DataFolder& folder_;
     const RunProgram& run_;

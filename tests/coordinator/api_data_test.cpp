@@ -141,6 +141,17 @@ TEST_F(RestData, ScenesOfDamagedFilesAreRefused) {
                                HasSubstr("this is no .eyt file")));
 }
 
+TEST_F(RestData, WhatWentWrongOnceIsNotHeldAgainstAFile) {
+    std::ofstream(data() / "survey/dem.eyt") << "a terrain";
+    const char* scene = R"({"objects":[{"terrain":"survey/dem.eyt"}]})";
+    run_ = [](const auto&, const auto&, const auto&) { return ProgramEnd{true, 9, ""}; };
+    EXPECT_EQ(ask("PUT", "/scene", scene).status, 409);
+    run_ = [](const auto&, const auto&, const auto&) {
+        return ProgramEnd{false, 0, R"({"kind":"terrain","samples":9})"};
+    };
+    EXPECT_EQ(ask("PUT", "/scene", scene).status, 200);
+}
+
 TEST_F(RestData, ImportsIntoTheDataFolder) {
     const RestAnswer answer = ask("POST", "/imports", import(R"(,"errorMetres":0.5)"), "one");
     ASSERT_EQ(answer.status, 200) << *answer.body;
