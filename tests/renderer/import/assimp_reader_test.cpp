@@ -18,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/import/assimp_lights.h"
+#include "renderer/import/obj_text.h"
 #include "renderer/import/obj_textures.h"
 #include "tests/renderer/import/mesh_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
@@ -545,6 +546,32 @@ TEST(AssimpReader, MultipliesVertexColoursAndLeavesBlankOnesOut) {
     EXPECT_EQ(mesh->colours[0], (fabric::Rgba{128, 128, 0, 255}));
     test::writeFile(folder.file("plain.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     EXPECT_TRUE(readWithAssimp(folder.file("plain.obj"))->colours.empty());
+}
+
+TEST(AssimpReader, ReadsObjsWithIndentsCommentsAndNumbersThatBeginWithTheirPoint) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"),
+                    "\xef\xbb\xbfv .5 0 0 # 1\r\n v 1 -.5 0\r\nv 0 1 .25\nv 9 9 9\n"
+                    "usemtl #.5 .5\nf 1 2 3 # all\nf -4 -3 -2#");
+    const auto mesh = readWithAssimp(folder.file("m.obj"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    const std::vector<fabric::Vec3> expected = {{0.5, 0, 0}, {1, -0.5, 0}, {0, 1, 0.25}};
+    ASSERT_EQ(mesh->triangles.size(), 2U);
+    for (const auto& triangle : mesh->triangles)
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(mesh->positions[triangle[k]], expected[k]);
+    test::writeFile(folder.file("m.obj"),
+                    "v 1 2 3 .5 1 .5\nv 2 2 3 .5 1 .5\nv 1 3 3 .5 1 .5\nf 1 2 3\n");
+    const auto coloured = readWithAssimp(folder.file("m.obj"));
+    ASSERT_TRUE(coloured.ok()) << coloured.status();
+    EXPECT_THAT(coloured->positions, testing::Contains(fabric::Vec3(1, 2, 3)));
+    EXPECT_THAT(coloured->colours, testing::Each(fabric::Rgba{128, 255, 128, 255}));
+}
+
+TEST(ObjForAssimp, LeavesAsTheyAreFilesThatAreReadRightly) {
+    EXPECT_FALSE(objForAssimp("# .5\no a .5 # b\nv 0.5 -.5 1.\nvn 0 0 1\nf 1 2 3\n"));
+    EXPECT_FALSE(objForAssimp(""));
+    EXPECT_FALSE(objForAssimp("f 1 2\\\n 3\n")) << "which goes on";
+    EXPECT_EQ(objForAssimp("v .5 .5 1\r\to .5\rvt .1 # .1\r"), "v 0.5 0.5 1\ro .5\rvt 0.1 \r");
 }
 
 TEST(AssimpReader, SaysHowLongABinaryStlOughtToBe) {
