@@ -28,6 +28,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 /// An AC3D file: a red square and a grey triangle at places of their own.
 constexpr const char* kAc3d = R"(AC3Db
@@ -546,6 +547,56 @@ TEST(AssimpReader, MultipliesVertexColoursAndLeavesBlankOnesOut) {
     EXPECT_EQ(mesh->colours[0], (fabric::Rgba{128, 128, 0, 255}));
     test::writeFile(folder.file("plain.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     EXPECT_TRUE(readWithAssimp(folder.file("plain.obj"))->colours.empty());
+}
+
+TEST(AssimpReader, SaysWhereCoordinatesLoseWhatOneSees) {
+    const test::TemporaryFolder folder;
+    const auto notesAt = [&](double x, const std::string& name) {
+        test::writeFile(folder.file(name),
+                        fmt::format("OFF\n3 1 0\n{} 0 0\n{} 0 0\n{} 1 0\n3 0 1 2\n", x, x + 1, x));
+        const auto mesh = readWithAssimp(folder.file(name));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        return mesh.ok() ? mesh->notes : std::vector<std::string>();
+    };
+    EXPECT_THAT(notesAt(100, "m.off"), IsEmpty());
+    EXPECT_THAT(notesAt(5e5, "m.off"),
+                ElementsAre(testing::AllOf(HasSubstr("by up to 0.03 m"), HasSubstr("PLY"))));
+}
+
+/// A triangle that node 0 has, with what else is said of its mesh and node, and of the file.
+std::string gltfOfATriangle(std::string_view ofMesh, std::string_view ofNode,
+                            std::string_view rest) {
+    const std::string zeros(400, 'A');  // places, joints and matrices: all 0
+    return fmt::format(
+        R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0, 1]}}],
+"nodes": [{{"mesh": 0 {1}}}, {{}}], "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0,
+"JOINTS_0": 1, "WEIGHTS_0": 2}}, "targets": [{{"POSITION": 0}}]}}] {0}}}], {2}
+"buffers": [{{"byteLength": 300, "uri": "data:application/octet-stream;base64,{3}"}}],
+"bufferViews": [{{"buffer": 0, "byteLength": 300}}],
+"accessors": [
+{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}},
+{{"bufferView": 0, "componentType": 5121, "count": 3, "type": "VEC4"}},
+{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC4"}},
+{{"bufferView": 0, "componentType": 5126, "count": 1, "type": "MAT4"}}]}})",
+        ofMesh, ofNode, rest, zeros);
+}
+
+TEST(AssimpReader, SaysThatShapesAndSkeletonsAreLeftOut) {
+    const test::TemporaryFolder folder;
+    const auto notesOf = [&](const std::string& gltf) {
+        test::writeFile(folder.file("m.gltf"), gltf);
+        const auto mesh = readWithAssimp(folder.file("m.gltf"));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        return mesh.ok() ? mesh->notes : std::vector<std::string>();
+    };
+    EXPECT_THAT(notesOf(gltfOfATriangle("", "", "")), IsEmpty());
+    EXPECT_THAT(notesOf(gltfOfATriangle(R"(, "weights": [0])", "", "")), IsEmpty());
+    EXPECT_THAT(notesOf(gltfOfATriangle(R"(, "weights": [0.5])", "", "")),
+                ElementsAre(HasSubstr("morph targets of 1 of 1 meshes")));
+    EXPECT_THAT(
+        notesOf(gltfOfATriangle("", R"(, "skin": 0)",
+                                R"("skins": [{"joints": [1], "inverseBindMatrices": 3}],)")),
+        ElementsAre(HasSubstr("skeletons of 1 of 1 meshes")));
 }
 
 TEST(AssimpReader, ReadsObjsWithIndentsCommentsAndNumbersThatBeginWithTheirPoint) {
