@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -11,6 +12,7 @@
 #include <assimp/MemoryIOWrapper.h>
 
 #include "renderer/import/collada_text.h"
+#include "renderer/import/obj_text.h"
 #include "renderer/import/uri_name.h"
 #include "renderer/import/x3d_text.h"
 #include "renderer/mesh/mapped_file.h"
@@ -19,7 +21,14 @@ namespace eyrie::import {
 namespace {
 
 bool isMended(const AssimpFormat& format) {
-    return format.extension == ".x3d" || format.extension == ".dae";
+    return format.extension == ".x3d" || format.extension == ".dae" || format.extension == ".obj";
+}
+
+/// Nothing where it may be read as it is.
+std::optional<std::string> mended(std::string_view source, const AssimpFormat& format) {
+    if (format.extension == ".obj")
+        return objForAssimp(source);
+    return format.extension == ".x3d" ? x3dForAssimp(source) : colladaForAssimp(source);
 }
 
 /// Files as glTF's URIs name them, which Assimp takes for plain names.
@@ -46,11 +55,12 @@ public:
             return DefaultIOSystem::Open(name, mode);
         const auto read = file->bytes();
         const std::string_view source(reinterpret_cast<const char*>(read.data()), read.size());
-        const std::string text =
-            format->extension == ".x3d" ? x3dForAssimp(source) : colladaForAssimp(source);
-        auto bytes = std::make_unique<std::uint8_t[]>(text.size());
-        std::ranges::copy(text, bytes.get());
-        return std::make_unique<Assimp::MemoryIOStream>(bytes.release(), text.size(), true)
+        const std::optional<std::string> text = mended(source, *format);
+        if (!text)
+            return DefaultIOSystem::Open(name, mode);
+        auto bytes = std::make_unique<std::uint8_t[]>(text->size());
+        std::ranges::copy(*text, bytes.get());
+        return std::make_unique<Assimp::MemoryIOStream>(bytes.release(), text->size(), true)
             .release();  // which Assimp deletes
     }
 };

@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <span>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -24,10 +25,12 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 #include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 
+#include "fabric/box.h"
 #include "fabric/status.h"
 #include "renderer/import/assimp_caveats.h"
 #include "renderer/import/assimp_files.h"
@@ -94,6 +97,19 @@ bool hasOwnMaterial(const aiMaterial& material) {
              std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME);
 }
 
+/// Whether a mesh shows others' shapes besides its own.
+bool isMorphed(const aiMesh* mesh) {
+    return std::ranges::any_of(std::span(mesh->mAnimMeshes, mesh->mNumAnimMeshes),
+                               [](const aiAnimMesh* shape) { return shape->mWeight != 0; });
+}
+
+/// Whether the file's own coordinates are in single precision.
+bool isOfSinglePrecision(const AssimpFormat& format) {
+    constexpr std::array kExtensions = {".3ds", ".b3d", ".glb", ".gltf", ".iqm",  ".lwo",
+                                        ".lxo", ".md2", ".md3", ".mdc",  ".ms3d", ".stl"};
+    return std::ranges::count(kExtensions, format.extension) > 0;
+}
+
 /// FBX says what its unit is, in centimetres, and Assimp hands it on without applying it. COLLADA's
 /// it applies; no other format has one.
 double metresPerUnitOf(const aiScene& scene, const AssimpFormat& format,
@@ -158,6 +174,8 @@ private:
     void addTextureCoordinates(const aiMesh& mesh);
     absl::Status addFaces(const aiMesh& mesh, std::uint32_t first, bool isMirrored);
     absl::Status addFace(const aiFace& face, std::uint32_t first);
+    void noteWhatIsLeftOut();
+    void noteRounding();
 
     const aiScene& scene_;
     const AssimpFormat& format_;
@@ -166,6 +184,7 @@ private:
     std::size_t wrongColours_ = 0;           // meshes of which they are left out
     bool hasNormals_ = false;
     bool hasColours_ = false;
+    double farthest_ = 0;  // metres of a vertex from its mesh's own origin
     TriangleMesh result_;
     std::vector<std::uint32_t> corners_;  // of the face being added
 };
@@ -201,6 +220,8 @@ absl::Status SceneMeshes::addVertices(const aiMesh& mesh, const glm::dmat4& worl
                 "repair the vertex",
                 mesh.mName.C_Str(), i, position.x, position.y, position.z));
         result_.positions.push_back(position);
+        farthest_ = std::max(farthest_,
+                             glm::length(glm::dvec3(worldFromMesh * glm::dvec4(v.x, v.y, v.z, 0))));
         if (!hasNormals_)
             continue;
         const aiVector3D n = mesh.mNormals != nullptr ? mesh.mNormals[i] : aiVector3D();
@@ -279,6 +300,49 @@ absl::Status SceneMeshes::add(unsigned int number, const glm::dmat4& worldFromMe
                     glm::determinant(glm::dmat3(worldFromMesh)) < 0);
 }
 
+void SceneMeshes::noteWhatIsLeftOut() {
+    if (wrongColours_ > 0)
+        result_.notes.push_back(
+            fmt::format("left out vertices' colours of {} of {} meshes, which are below 0",
+                        wrongColours_, scene_.mNumMeshes));
+    if (scene_.mNumAnimations > 0)
+        result_.notes.push_back(
+            fmt::format("left out its animations, {} of them: everything stays where "
+                        "the file's nodes put it",
+                        scene_.mNumAnimations));
+    const std::span meshes(scene_.mMeshes, scene_.mNumMeshes);
+    const auto bent =
+        std::ranges::count_if(meshes, [](const aiMesh* one) { return one->HasBones(); });
+    if (bent > 0)
+        result_.notes.push_back(
+            fmt::format("left out the skeletons of {} of {} meshes: what these bend or move is as "
+                        "it was made, where its node is",
+                        bent, scene_.mNumMeshes));
+    const auto morphed = std::ranges::count_if(meshes, isMorphed);
+    if (morphed > 0)
+        result_.notes.push_back(
+            fmt::format("left out the morph targets of {} of {} meshes: these have their basic "
+                        "shape; apply the shape keys before export",
+                        morphed, scene_.mNumMeshes));
+}
+
+/// Assimp keeps coordinates in single precision. Of a model around 0 that loses nothing that one
+/// sees; of one that stands in the coordinates of a country it loses decimetres.
+void SceneMeshes::noteRounding() {
+    constexpr double kRounding = 1.0 / (1 << 24);
+    constexpr double kSeen = 1e-5;  // of the longest side
+    fabric::Box bounds;
+    for (const fabric::Vec3& position : result_.positions) bounds.grow(position);
+    const fabric::Vec3 size = bounds.size();
+    const double rounding = farthest_ * kRounding;
+    if (!isOfSinglePrecision(format_) && rounding > kSeen * std::max({size.x, size.y, size.z}))
+        result_.notes.push_back(
+            fmt::format("coordinates are rounded, by up to {:.2g} m: they are far from 0, and of "
+                        "this format read in single precision; export the mesh nearer to 0, or as "
+                        "PLY with coordinates of the type double",
+                        rounding));
+}
+
 absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
     struct Placed {
         const aiNode* node;
@@ -312,15 +376,8 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
     if (metresPerUnit != 1)
         result_.notes.push_back(fmt::format(
             "brought to metres: the file says that its unit is {:.6g} m", metresPerUnit));
-    if (wrongColours_ > 0)
-        result_.notes.push_back(
-            fmt::format("left out vertices' colours of {} of {} meshes, which are below 0",
-                        wrongColours_, scene_.mNumMeshes));
-    if (scene_.mNumAnimations > 0)
-        result_.notes.push_back(
-            fmt::format("left out its animations, {} of them: everything stays where "
-                        "the file's nodes put it",
-                        scene_.mNumAnimations));
+    noteWhatIsLeftOut();
+    noteRounding();
     return std::move(result_);
 }
 

@@ -183,11 +183,9 @@ private:
         return std::isfinite(tested) ? tested <= seen.last + slack(tested) : seen.last == kNoHit;
     }
 
-    /// Whether the source ends beside what it shows here, be it where something hides that: what a
-    /// picture leaves out there may lie before what hides it.
-    bool isBesideAnEnd(int x, int y) {
-        const double depth = reference_[index(x, y)].first;
-        if (depth == kNoHit || ++ends_ > kMostEnds)
+    /// Whether the source ends beside the point at this depth, be it where something hides that.
+    bool endsBeside(int x, int y, double depth) {
+        if (++ends_ > kMostEnds)
             return false;
         constexpr double kSlant = 8;  // as far across ground seen at 7 degrees
         const double reach = kSlant * (edge_ + 0.5) * depth / camera_.focalPixels();
@@ -197,6 +195,24 @@ private:
                    std::abs(at->y - y - 0.5) <= edge_ + 0.5;
         };
         return surface_.endsWithin(camera_.rayThrough(x + 0.5, y + 0.5).at(depth), reach, isThere);
+    }
+
+    /// Whether it ends beside all that it has before what is drawn here, or before nothing: what a
+    /// picture leaves out there may lie before what hides the end.
+    bool isBesideEnds(int x, int y, double tested) {
+        constexpr double kBehind = 1 + 1e-9;
+        const Ray ray = camera_.rayThrough(x + 0.5, y + 0.5);
+        ReferenceSurface::HitRange hit = reference_[index(x, y)];
+        const bool isAny = hit.first != kNoHit;
+        const double behind = std::isfinite(tested) ? tested - slack(tested) : kNoHit;
+        while (hit.first < behind) {
+            if (!endsBeside(x, y, hit.first))
+                return false;
+            const double from = hit.last * kBehind;
+            hit = surface_.hitRange({ray.at(from), ray.direction});
+            hit = {from + hit.first, from + hit.last};
+        }
+        return isAny;
     }
 
     std::optional<DrawnPoint> shownAt(int x, int y, double depth) const {
@@ -246,9 +262,10 @@ private:
     bool isExplained(int x, int y, double tested, const Surroundings& around) {
         if (isShownRightly(x, y, tested, around))
             return true;
-        return tested < around.nearest ? isThin(x, y, tested, around)
-                                       : isThroughSeams(x, y, tested) ||
-                                             isBesideASide(x, y, around) || isBesideAnEnd(x, y);
+        return tested < around.nearest
+                   ? isThin(x, y, tested, around)
+                   : isThroughSeams(x, y, tested) || isBesideASide(x, y, around) ||
+                         isBesideEnds(x, y, tested);
     }
 
     void finishDisplacements() {

@@ -79,9 +79,9 @@ inline constexpr double kDepthSlack = 4;
 /// pixel by 256, of the nearest 9 pixels, which miss no more of a spire or gap than a width of 1/16
 /// pixel. What is drawn before all of that is thin, and no mistake, if the source has it there;
 /// what is seen behind it is none where all that is before it has a seam there
-/// (ReferenceSurface::throughSeams), or where the source ends within `edgePixels`, hidden or not
-/// (ReferenceSurface::endsWithin): what a picture has left out beside a hole behind a crest may be
-/// the crest.
+/// (ReferenceSurface::throughSeams), or where beside all that the source ends within `edgePixels`,
+/// hidden or not (ReferenceSurface::endsWithin): what a picture has left out beside a hole behind a
+/// crest may be the crest.
 ///
 /// `depth`: view-space metres, infinity for nothing; rows from the bottom up, width * height of
 /// `camera`. Uses all cores.

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -53,6 +55,32 @@ double entry(const Box& box, const Ray& ray) {
 double distanceSquared(const Box& box, const Vec3& point) {
     const Vec3 nearest = glm::clamp(point, box.min, box.max);
     return glm::dot(point - nearest, point - nearest);
+}
+
+bool isBefore(const Vec3& a, const Vec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+using Edge = std::array<Vec3, 2>;
+
+/// Whether `isThere` takes one of the edge's points within `reach` of `point`.
+bool anyOfEdge(const Edge& edge, const Vec3& point, double reach,
+               const std::function<bool(const Vec3&)>& isThere) {
+    constexpr double kSteps = 16;  ///< of a length of `reach`
+    const Vec3 along = edge[1] - edge[0];
+    const double length = glm::length(along);
+    const double nearest = glm::dot(point - edge[0], along) / length;
+    const Vec3 beside = point - (edge[0] + nearest / length * along);
+    const double square = reach * reach - glm::dot(beside, beside);
+    if (!(square >= 0))
+        return false;
+    const double begin = std::max(0.0, nearest - std::sqrt(square));
+    const double end = std::min(length, nearest + std::sqrt(square));
+    const double steps = std::max(1.0, std::ceil((end - begin) / reach * kSteps));
+    for (double i = 0; begin <= end && i <= steps; ++i)
+        if (isThere(edge[0] + (begin + (end - begin) * i / steps) / length * along))
+            return true;
+    return false;
 }
 
 }  // namespace
@@ -204,6 +232,48 @@ ReferenceSurface::HitRange MeshRayCaster::cast(const Ray& ray, double reach) con
         stack[depth++] = rightFirst ? node.right : index + 1;
     }
     return range;
+}
+
+/// Those of all triangles that come so near, each as often as triangles have it, and perhaps some
+/// that lie farther off.
+std::vector<Edge> MeshRayCaster::edgesWithin(const Vec3& point, double reach) const {
+    std::vector<Edge> edges;
+    std::vector<std::uint32_t> stack = {0};
+    while (!stack.empty()) {
+        const std::uint32_t index = stack.back();
+        stack.pop_back();
+        const Node& node = nodes_[index];
+        if (distanceSquared(node.bounds, point) > reach * reach)
+            continue;
+        if (node.right != 0) {
+            stack.push_back(index + 1);
+            stack.push_back(node.right);
+            continue;
+        }
+        for (std::uint32_t i = node.begin; i < node.end; ++i) {
+            const Triangle at = corners(mesh_, i);
+            for (std::size_t k = 0; k < 3; ++k)
+                if (const Vec3& a = at[k], &b = at[(k + 1) % 3]; a != b)
+                    edges.push_back(isBefore(a, b) ? Edge{a, b} : Edge{b, a});
+        }
+    }
+    return edges;
+}
+
+bool MeshRayCaster::endsWithin(const Vec3& point, double reach,
+                               const std::function<bool(const Vec3&)>& isThere) const {
+    std::vector<Edge> edges = edgesWithin(point, reach);
+    std::ranges::sort(edges, [](const Edge& a, const Edge& b) {
+        return a[0] == b[0] ? isBefore(a[1], b[1]) : isBefore(a[0], b[0]);
+    });
+    for (auto edge = edges.begin(); edge != edges.end();) {
+        const auto next =
+            std::find_if(edge, edges.end(), [&](const Edge& e) { return e != *edge; });
+        if (next - edge == 1 && anyOfEdge(*edge, point, reach, isThere))
+            return true;
+        edge = next;
+    }
+    return false;
 }
 
 std::optional<Vec3> MeshRayCaster::counterpart(const Vec3& point) const {

@@ -38,6 +38,10 @@ public:
     /// Goes through all triangles for each edge that may be a seam. Those without area, which some
     /// modellers put where an edge ends inside another, close none.
     HitRange throughSeams(const Ray& ray, double reach) const override { return cast(ray, reach); }
+    /// It ends at edges of one triangle alone; asked about are points of these within `reach`, no
+    /// farther apart than a sixteenth of it.
+    bool endsWithin(const fabric::Vec3& point, double reach,
+                    const std::function<bool(const fabric::Vec3&)>& isThere) const override;
     /// The closest point of the mesh.
     std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override;
 
@@ -65,6 +69,8 @@ private:
     fabric::Box boundsOf(const Order& order, std::uint32_t begin, std::uint32_t end) const;
     void putInOrder(const Order& order);
     HitRange cast(const Ray& ray, double reach) const;
+    std::vector<std::array<fabric::Vec3, 2>> edgesWithin(const fabric::Vec3& point,
+                                                         double reach) const;
     bool isSure(std::size_t triangle, const Ray& ray) const;
     bool isAtSeam(std::size_t triangle, const Ray& ray, double hit, double reach) const;
     bool hasNoArea(const std::array<fabric::Vec3, 3>& triangle) const;

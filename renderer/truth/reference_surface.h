@@ -40,8 +40,9 @@ public:
     /// than `reach` times its parameter there.
     virtual HitRange throughSeams(const Ray& ray, double /*reach*/) const { return hitRange(ray); }
 
-    /// Whether the source ends, at nodata or at its rim, at a point that `isThere` takes: all those
-    /// within `reach` metres of `point` across the ground are asked about, seen or not.
+    /// Whether the source ends, at nodata, a hole or its rim, at a point that `isThere` takes:
+    /// those within `reach` metres of `point`, of terrain across the ground, are asked about, seen
+    /// or not.
     virtual bool endsWithin(const fabric::Vec3& /*point*/, double /*reach*/,
                             const std::function<bool(const fabric::Vec3&)>& /*isThere*/) const {
         return false;

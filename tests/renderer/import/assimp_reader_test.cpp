@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "renderer/import/obj_text.h"
 #include "tests/renderer/import/assimp_files.h"
 #include "tests/renderer/import/mesh_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
@@ -19,6 +20,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 TEST(AssimpReader, TakesMaterialsThatNobodyWouldSeeForOpaque) {
     const test::TemporaryFolder folder;
@@ -114,6 +116,82 @@ TEST(AssimpReader, MultipliesVertexColoursAndLeavesBlankOnesOut) {
     EXPECT_EQ(mesh->colours[0], (fabric::Rgba{128, 128, 0, 255}));
     test::writeFile(folder.file("plain.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     EXPECT_TRUE(readWithAssimp(folder.file("plain.obj"))->colours.empty());
+}
+
+TEST(AssimpReader, SaysWhereCoordinatesLoseWhatOneSees) {
+    const test::TemporaryFolder folder;
+    const auto notesAt = [&](double x, const std::string& name) {
+        test::writeFile(folder.file(name),
+                        fmt::format("OFF\n3 1 0\n{} 0 0\n{} 0 0\n{} 1 0\n3 0 1 2\n", x, x + 1, x));
+        const auto mesh = readWithAssimp(folder.file(name));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        return mesh.ok() ? mesh->notes : std::vector<std::string>();
+    };
+    EXPECT_THAT(notesAt(100, "m.off"), IsEmpty());
+    EXPECT_THAT(notesAt(5e5, "m.off"),
+                ElementsAre(testing::AllOf(HasSubstr("by up to 0.03 m"), HasSubstr("PLY"))));
+}
+
+/// A triangle that node 0 has, with what else is said of its mesh and node, and of the file.
+std::string gltfOfATriangle(std::string_view ofMesh, std::string_view ofNode,
+                            std::string_view rest) {
+    const std::string zeros(400, 'A');  // places, joints and matrices: all 0
+    return fmt::format(
+        R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0, 1]}}],
+"nodes": [{{"mesh": 0 {1}}}, {{}}], "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0,
+"JOINTS_0": 1, "WEIGHTS_0": 2}}, "targets": [{{"POSITION": 0}}]}}] {0}}}], {2}
+"buffers": [{{"byteLength": 300, "uri": "data:application/octet-stream;base64,{3}"}}],
+"bufferViews": [{{"buffer": 0, "byteLength": 300}}],
+"accessors": [
+{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}},
+{{"bufferView": 0, "componentType": 5121, "count": 3, "type": "VEC4"}},
+{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC4"}},
+{{"bufferView": 0, "componentType": 5126, "count": 1, "type": "MAT4"}}]}})",
+        ofMesh, ofNode, rest, zeros);
+}
+
+TEST(AssimpReader, SaysThatShapesAndSkeletonsAreLeftOut) {
+    const test::TemporaryFolder folder;
+    const auto notesOf = [&](const std::string& gltf) {
+        test::writeFile(folder.file("m.gltf"), gltf);
+        const auto mesh = readWithAssimp(folder.file("m.gltf"));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        return mesh.ok() ? mesh->notes : std::vector<std::string>();
+    };
+    EXPECT_THAT(notesOf(gltfOfATriangle("", "", "")), IsEmpty());
+    EXPECT_THAT(notesOf(gltfOfATriangle(R"(, "weights": [0])", "", "")), IsEmpty());
+    EXPECT_THAT(notesOf(gltfOfATriangle(R"(, "weights": [0.5])", "", "")),
+                ElementsAre(HasSubstr("morph targets of 1 of 1 meshes")));
+    EXPECT_THAT(
+        notesOf(gltfOfATriangle("", R"(, "skin": 0)",
+                                R"("skins": [{"joints": [1], "inverseBindMatrices": 3}],)")),
+        ElementsAre(HasSubstr("skeletons of 1 of 1 meshes")));
+}
+
+TEST(AssimpReader, ReadsObjsWithIndentsCommentsAndNumbersThatBeginWithTheirPoint) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"),
+                    "\xef\xbb\xbfv .5 0 0 # 1\r\n v 1 -.5 0\r\nv 0 1 .25\nv 9 9 9\n"
+                    "usemtl #.5 .5\nf 1 2 3 # all\nf -4 -3 -2#");
+    const auto mesh = readWithAssimp(folder.file("m.obj"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    const std::vector<fabric::Vec3> expected = {{0.5, 0, 0}, {1, -0.5, 0}, {0, 1, 0.25}};
+    ASSERT_EQ(mesh->triangles.size(), 2U);
+    for (const auto& triangle : mesh->triangles)
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(mesh->positions[triangle[k]], expected[k]);
+    test::writeFile(folder.file("m.obj"),
+                    "v 1 2 3 .5 1 .5\nv 2 2 3 .5 1 .5\nv 1 3 3 .5 1 .5\nf 1 2 3\n");
+    const auto coloured = readWithAssimp(folder.file("m.obj"));
+    ASSERT_TRUE(coloured.ok()) << coloured.status();
+    EXPECT_THAT(coloured->positions, testing::Contains(fabric::Vec3(1, 2, 3)));
+    EXPECT_THAT(coloured->colours, testing::Each(fabric::Rgba{128, 255, 128, 255}));
+}
+
+TEST(ObjForAssimp, LeavesAsTheyAreFilesThatAreReadRightly) {
+    EXPECT_FALSE(objForAssimp("# .5\no a .5 # b\nv 0.5 -.5 1.\nvn 0 0 1\nf 1 2 3\n"));
+    EXPECT_FALSE(objForAssimp(""));
+    EXPECT_FALSE(objForAssimp("f 1 2\\\n 3\n")) << "which goes on";
+    EXPECT_EQ(objForAssimp("v .5 .5 1\r\to .5\rvt .1 # .1\r"), "v 0.5 0.5 1\ro .5\rvt 0.1 \r");
 }
 
 TEST(AssimpReader, SaysHowLongABinaryStlOughtToBe) {

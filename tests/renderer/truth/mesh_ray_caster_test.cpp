@@ -58,6 +58,44 @@ TEST(MeshRayCaster, HitsASphereWhereItIs) {
     }
 }
 
+/// A sheet of 20 x 10 squares of a metre, of which one triangle is missing.
+TEST(MeshRayCaster, EndsAtHolesAndAtItsRim) {
+    TriangleMesh mesh;
+    for (int y = 0; y <= 10; ++y)
+        for (int x = 0; x <= 20; ++x) mesh.positions.emplace_back(x, y, 7);
+    for (std::uint32_t y = 0; y < 10; ++y)
+        for (std::uint32_t x = 0; x < 20; ++x) {
+            const std::uint32_t a = y * 21 + x;
+            mesh.triangles.push_back({a, a + 1, a + 22});
+            if (x != 8 || y != 5)
+                mesh.triangles.push_back({a, a + 22, a + 21});
+        }
+    const MeshRayCaster caster(mesh);
+    const auto boundsOfEnds = [&](const Vec3& point, double reach) {
+        fabric::Box bounds;
+        EXPECT_FALSE(caster.endsWithin(point, reach, [&](const Vec3& end) {
+            bounds.grow(end);
+            return false;
+        }));
+        return bounds;
+    };
+    const fabric::Box hole = boundsOfEnds({8.4, 5.6, 7}, 2);
+    EXPECT_EQ(hole.min, Vec3(8, 5, 7));
+    EXPECT_EQ(hole.max, Vec3(9, 6, 7));
+    EXPECT_TRUE(boundsOfEnds({4.5, 5, 7}, 3.4).isEmpty());
+    EXPECT_EQ(boundsOfEnds({4.5, 5, 7}, 3.5), fabric::Box({8, 5, 7}, {8, 5, 7}))
+        << "a corner of it";
+    const fabric::Box rim = boundsOfEnds({20, 3, 7.3}, 0.5);
+    EXPECT_EQ(rim.min.x, 20);
+    EXPECT_NEAR(rim.min.y, 2.6, 1e-9) << "a circle of 0.4 metres is cut out of the rim";
+    EXPECT_NEAR(rim.max.y, 3.4, 1e-9);
+    EXPECT_TRUE(boundsOfEnds({15, 5, 17}, 5).isEmpty()) << "above it";
+    EXPECT_TRUE(caster.endsWithin({15, 5, 7}, 1e9, [](const Vec3&) { return true; }));
+    EXPECT_FALSE(MeshRayCaster(sphere(10, Vec3(0))).endsWithin(Vec3(0), 9, [](const Vec3&) {
+        return true;
+    })) << "which has none";
+}
+
 /// Brute force says the same of the nearest triangle and of the nearest that is surely seen.
 TEST(MeshRayCaster, SaysWhereSomethingMayBeSeenAndWhereItSurelyIs) {
     std::mt19937 random(9);

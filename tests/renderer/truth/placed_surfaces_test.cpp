@@ -56,7 +56,8 @@ TEST(PlacedSurfaces, EndsAreFoundWhereTheyStand) {
     };
     EXPECT_TRUE(scene.endsWithin({1190, 190, 7}, 20, isAt({1200, 200, 7})));
     EXPECT_FALSE(scene.endsWithin({1190, 190, 7}, 20, isAt({1000, 0, 7}))) << "beyond reach";
-    EXPECT_FALSE(scene.endsWithin({0, 0, 0}, 20, [](const auto&) { return true; }));
+    EXPECT_FALSE(scene.endsWithin({500, 0, 0}, 20, [](const auto&) { return true; }));
+    EXPECT_TRUE(scene.endsWithin({0, 0, 0}, 20, isAt({1, 1, 0})));
 }
 
 /// Seen from the side, a metre up is as many pixels for a scene as for its parts.
