@@ -31,7 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raise either when an importer makes something else of the same source.
-constexpr int kMeshImporterVersion = 11;
+constexpr int kMeshImporterVersion = 12;
 constexpr int kTerrainImporterVersion = 9;
 
 std::string lowerCaseEnding(const std::string& path) {

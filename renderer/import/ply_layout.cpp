@@ -20,8 +20,8 @@ struct SlotName {
     std::string_view name;
     std::size_t slot;
 };
-/// Texture coordinates are called as by Blender, MeshLab and photogrammetry programs.
-constexpr std::array<SlotName, 20> kSlotNames = {{
+/// Colours and texture coordinates are called as by Blender, MeshLab and photogrammetry programs.
+constexpr std::array<SlotName, 24> kSlotNames = {{
     {"x", 0},
     {"y", 1},
     {"z", 2},
@@ -36,6 +36,10 @@ constexpr std::array<SlotName, 20> kSlotNames = {{
     {"diffuse_green", 7},
     {"diffuse_blue", 8},
     {"diffuse_alpha", 9},
+    {"r", 6},
+    {"g", 7},
+    {"b", 8},
+    {"a", 9},
     {"s", kU},
     {"t", kV},
     {"u", kU},

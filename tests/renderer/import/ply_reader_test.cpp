@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/ply_reader.h"
 
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -253,6 +254,22 @@ TEST(PlyReader, TakesColoursOfEveryTypeAsBytes) {
     EXPECT_EQ(colourOf("ushort", "0 32896 65535"), (fabric::Rgba{0, 128, 255, 255}));
     EXPECT_EQ(colourOf("float", "-1 nan 1e30"), (fabric::Rgba{0, 0, 255, 255}));
     EXPECT_EQ(colourOf("int", "-5 7 300"), (fabric::Rgba{0, 7, 255, 255}));
+}
+
+TEST(PlyReader, TakesColoursByEachOfTheirNames) {
+    for (const std::string names :
+         {"red green blue", "diffuse_red diffuse_green diffuse_blue", "r g b"}) {
+        std::istringstream each(names);
+        std::string properties;
+        for (std::string name; each >> name;) properties += "property uchar " + name + "\n";
+        const TriangleMesh mesh = parsed(
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+            "property float z\n" +
+            properties +
+            "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 1 2 3\n3 0 "
+            "0 0\n");
+        EXPECT_EQ(mesh.colours, (std::vector<fabric::Rgba>{{1, 2, 3, 255}})) << names;
+    }
 }
 
 TEST(PlyReader, ReadsWindowsAndMacLineEnds) {
