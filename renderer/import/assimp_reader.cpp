@@ -35,6 +35,7 @@
 #include "renderer/import/assimp_caveats.h"
 #include "renderer/import/assimp_files.h"
 #include "renderer/import/assimp_lights.h"
+#include "renderer/import/assimp_log.h"
 #include "renderer/import/assimp_materials.h"
 #include "renderer/import/assimp_values.h"
 #include "renderer/import/gltf_extensions.h"
@@ -435,13 +436,18 @@ absl::StatusOr<const aiScene*> parse(Assimp::Importer& importer, const std::stri
 
 absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& format) {
     try {
+        const AssimpLog log;
         Assimp::Importer importer;
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, 0);  // this file alone
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);  // none made of bones
         importer.SetIOHandler(assimpFiles(format).release());                 // which it deletes
         ASSIGN_OR_RETURN(const aiScene* scene, parse(importer, path, format));
-        if (scene != nullptr)
-            return SceneMeshes(*scene, format).gather();
+        if (scene != nullptr) {
+            absl::StatusOr<TriangleMesh> mesh = SceneMeshes(*scene, format).gather();
+            if (mesh.ok())
+                for (std::string& note : log.notes()) mesh->notes.push_back(std::move(note));
+            return mesh;
+        }
         const std::string why = importer.GetErrorString();
         if (why.find("bad_alloc") != std::string::npos)
             throw std::bad_alloc();

@@ -168,6 +168,40 @@ TEST(AssimpReader, SaysThatShapesAndSkeletonsAreLeftOut) {
         ElementsAre(HasSubstr("skeletons of 1 of 1 meshes")));
 }
 
+/// Of two triangles, the second of which may have a corner that is no vertex.
+std::string gltfOfTwoTriangles(int lastCorner) {
+    const std::string base64 =
+        fmt::format("AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAABAA{}A",
+                    lastCorner == 2 ? "I" : "k");  // or 9
+    const std::string primitive = R"({"attributes": {"POSITION": 0}, "indices": 1})";
+    return fmt::format(
+        R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}],
+"nodes": [{{"mesh": 0}}], "meshes": [{{"primitives": [{0}, {0}]}}],
+"buffers": [{{"byteLength": 48, "uri": "data:application/octet-stream;base64,{1}"}}],
+"bufferViews": [{{"buffer": 0, "byteLength": 36}},
+{{"buffer": 0, "byteOffset": 36, "byteLength": 12}}],
+"accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+"min": [0, 0, 0], "max": [1, 1, 0]}},
+{{"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}}]}})",
+        primitive, base64);
+}
+
+TEST(AssimpReader, SaysWhatAssimpPassesOver) {
+    const test::TemporaryFolder folder;
+    const auto read = [&](int lastCorner) {
+        test::writeFile(folder.file("m.gltf"), gltfOfTwoTriangles(lastCorner));
+        const auto mesh = readWithAssimp(folder.file("m.gltf"));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        return mesh.ok() ? *mesh : TriangleMesh{};
+    };
+    const TriangleMesh sound = read(2);
+    EXPECT_EQ(sound.triangles.size(), 4U);
+    EXPECT_THAT(sound.notes, IsEmpty());
+    const TriangleMesh broken = read(9);
+    EXPECT_EQ(broken.triangles.size(), 2U);
+    EXPECT_THAT(broken.notes, ElementsAre(HasSubstr("out-of-range indices")));
+}
+
 TEST(AssimpReader, ReadsObjsWithIndentsCommentsAndNumbersThatBeginWithTheirPoint) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("m.obj"),
