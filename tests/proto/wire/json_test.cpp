@@ -34,9 +34,8 @@ TEST(CameraJson, ARefusalNamesFileAndField) {
 
 TEST(CameraJson, ARefusalSaysWhatWouldBeRight) {
     const auto refusal = [](const char* text) {
-        const auto message = cameraFromJson(text, "c.json").status().message();
-        return std::string(message).substr(
-            std::string_view("c.json: this is no camera file: ").size());
+        const std::string message(cameraFromJson(text, "c.json").status().message());
+        return message.substr(std::string_view("c.json: this is no camera file: ").size());
     };
     EXPECT_EQ(refusal(R"({"eye":[0,1,"x"]})"), R"(eye[2] is "x"; it must be a number)");
     EXPECT_EQ(refusal(R"({"fovyDegrees":"wide"})"),
@@ -54,9 +53,8 @@ TEST(CameraJson, ARefusalSaysWhatWouldBeRight) {
 
 TEST(FlightJson, ARefusalNamesTheFieldFromTheTop) {
     const auto refusal = [](const char* text) {
-        const auto message = flightFromJson(text, "f.json").status().message();
-        return std::string(message).substr(
-            std::string_view("f.json: this is no flight file: ").size());
+        const std::string message(flightFromJson(text, "f.json").status().message());
+        return message.substr(std::string_view("f.json: this is no flight file: ").size());
     };
     EXPECT_EQ(refusal(R"({"keys":[{"camera":5}]})"),
               "keys[0].camera is 5; it must be an object in braces");
