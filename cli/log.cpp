@@ -84,12 +84,21 @@ private:
     const std::string command_;
 };
 
+/// Past the level that a command leaves to its coordinator and renderers, not past --log-level.
+void addEntry(std::string_view line, spdlog::level::level_enum level) {
+    if (!current.level.empty() && level < spdlog::level::from_str(current.level))
+        return;
+    const spdlog::logger& logger = *spdlog::default_logger();
+    const spdlog::details::log_msg entry(logger.name(), level, {line.data(), line.size()});
+    for (const auto& sink : logger.sinks()) sink->log(entry);
+}
+
 void tellLines(std::string_view lines, spdlog::level::level_enum level) {
     while (!lines.empty()) {
         const std::string_view line = lines.substr(0, lines.find('\n'));
         lines.remove_prefix(std::min(line.size() + 1, lines.size()));
         if (current.isJson)
-            spdlog::log(level, "{}", line);
+            addEntry(line, level);
         else
             fmt::print(stderr, "{}\n", line);
     }

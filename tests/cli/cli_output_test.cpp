@@ -23,6 +23,7 @@
 #include "cli/picture_bands.h"
 #include "cli/progress_bar.h"
 #include "fabric/frustum.h"
+#include "fabric/log.h"
 #include "fabric/status.h"
 #include "tests/support/temporary_folder.h"
 #include "wire/jpeg.h"
@@ -359,6 +360,20 @@ TEST(Tell, WritesEachLineAsAnEntryOfAJsonLog) {
                 testing::MatchesRegex("\\{.*\"info\".*\"one\"\\}\n"
                                       "\\{.*\"info\".*\"two\"\\}\n"
                                       "\\{.*\"error\".*\"three\"\\}\n"));
+}
+
+/// Commands that draw silence those who draw for them.
+TEST(Tell, WritesEntriesBelowTheLevelOfRenderersButNotBelowWhatIsAskedFor) {
+    EXPECT_THAT(toldAsJson([] {
+                    spdlog::set_level(spdlog::level::err);
+                    tell("one");
+                }),
+                testing::HasSubstr("\"one\""));
+    EXPECT_EQ(toldAsJson([] {
+                  startLog({true, "warn", "import"});
+                  tell("one");
+              }),
+              "");
 }
 
 TEST(Tell, WritesLinesAsTheyAreForPeople) {
