@@ -25,9 +25,10 @@ bool isIn(std::string_view path, std::string_view folder) {
 std::optional<std::string> foundIn(const std::filesystem::path& folder, std::string_view path) {
     if (folder.empty() || page::isRemote(path))
         return std::nullopt;
-    for (std::size_t slash = path.find('/'); slash != std::string_view::npos;
-         slash = path.find('/', slash + 1)) {
-        std::filesystem::path place = folder / path.substr(slash + 1);
+    const std::string normal = std::filesystem::path(path).lexically_normal().string();
+    for (std::size_t slash = normal.find('/'); slash != std::string::npos;
+         slash = normal.find('/', slash + 1)) {
+        std::filesystem::path place = folder / normal.substr(slash + 1);
         std::error_code error;
         if (std::filesystem::is_regular_file(place, error))
             return std::move(place).string();

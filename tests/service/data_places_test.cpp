@@ -63,6 +63,10 @@ TEST(DataPlaces, FindTheLongestEndOfAPathInTheirFolder) {
     EXPECT_EQ(places.placed("/data/alps/dem.eyt"), folder.path("alps/dem.eyt"));
     EXPECT_EQ(places.placed("/data/andes/dem.eyt"), folder.path("dem.eyt"));
     EXPECT_EQ(places.placed("/data/alps"), "/data/alps") << "a folder";
+    std::filesystem::create_directories(folder.path("inner"));
+    DataPlaces inner;
+    ASSERT_TRUE(inner.lookIn(folder.path("inner")).ok());
+    EXPECT_EQ(inner.placed("/data/../dem.eyt"), "/data/../dem.eyt") << "beside the folder";
     EXPECT_EQ(places.placed("/data/alps/other.eyt"), "/data/alps/other.eyt");
     EXPECT_EQ(places.placed("/data/scan.eym"), "/mnt/scan.eym") << "the rule is for it alone";
     EXPECT_EQ(places.placed("https://a.example/dem.eyt"), "https://a.example/dem.eyt");
