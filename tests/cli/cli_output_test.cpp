@@ -23,7 +23,6 @@
 #include "cli/picture_bands.h"
 #include "cli/progress_bar.h"
 #include "fabric/frustum.h"
-#include "fabric/log.h"
 #include "fabric/status.h"
 #include "tests/support/temporary_folder.h"
 #include "wire/jpeg.h"
@@ -365,7 +364,7 @@ TEST(Tell, WritesEachLineAsAnEntryOfAJsonLog) {
 /// Commands that draw silence those who draw for them.
 TEST(Tell, WritesEntriesBelowTheLevelOfRenderersButNotBelowWhatIsAskedFor) {
     EXPECT_THAT(toldAsJson([] {
-                    spdlog::set_level(spdlog::level::err);
+                    quietLog();
                     tell("one");
                 }),
                 testing::HasSubstr("\"one\""));
