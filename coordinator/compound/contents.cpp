@@ -2,6 +2,9 @@
 #include "coordinator/compound/contents.h"
 
 #include <algorithm>
+#include <set>
+#include <span>
+#include <utility>
 
 namespace eyrie::compound {
 namespace {
@@ -13,13 +16,17 @@ Range around(const Range& a, const Range& b) {
     return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
 }
 
-/// Whether two shares of one rectangle's columns and rows have none in common.
-bool areApart(const Content& a, const Content& b) {
+/// Whether two are shares of one rectangle's columns and rows, counted alike.
+bool areSharesOf(const Content& a, const Content& b) {
     return a.everyNth && b.everyNth && a.everyNth->of == b.everyNth->of &&
            a.everyNth->everyColumn == b.everyNth->everyColumn &&
-           a.everyNth->everyRow == b.everyNth->everyRow &&
-           (a.everyNth->firstColumn != b.everyNth->firstColumn ||
-            a.everyNth->firstRow != b.everyNth->firstRow);
+           a.everyNth->everyRow == b.everyNth->everyRow;
+}
+
+/// Whether two shares of one rectangle's columns and rows have none in common.
+bool areApart(const Content& a, const Content& b) {
+    return areSharesOf(a, b) && (a.everyNth->firstColumn != b.everyNth->firstColumn ||
+                                 a.everyNth->firstRow != b.everyNth->firstRow);
 }
 
 /// Whether two are shares of the same.
@@ -61,6 +68,52 @@ std::vector<Block> outside(const Block& block, const Content& content) {
     return parts;
 }
 
+constexpr std::size_t kLong = 1000;
+
+/// What of the blocks is outside of `content`; nothing, too, where that is many.
+std::vector<Block> outside(const std::vector<Block>& blocks, const Content& content) {
+    std::vector<Block> left;
+    for (const Block& block : blocks) {
+        if (!meet(block, content)) {
+            left.push_back(block);
+            continue;
+        }
+        for (const Block& part : outside(block, content)) left.push_back(part);
+    }
+    return left;
+}
+
+Block common(const Block& block, const Content& content) {
+    return {intersection(block.area, content.area),
+            {std::max(block.range.begin, content.range.begin),
+             std::min(block.range.end, content.range.end)}};
+}
+
+/// Whole numbers from `begin`, `count` of them, that are `first` more than a multiple of `every`.
+std::int64_t countOf(std::int64_t begin, std::int64_t count, int first, int every) {
+    const auto below = [&](std::int64_t end) { return (end - first + every - 1) / every; };
+    return below(begin + count) - below(begin);
+}
+
+/// How much is missing of the pixels of `area`, where each of `shares` is all over it, if that can
+/// be told.
+double missingOf(const PixelViewport& area, std::span<const Content* const> shares) {
+    if (shares.empty())
+        return 1;
+    const fabric::Regridding& all = *shares.front()->everyNth;
+    std::set<std::pair<int, int>> found;
+    std::int64_t pixels = 0;
+    for (const Content* const each : shares) {
+        if (!areSharesOf(*each, *shares.front()))
+            return 0;
+        const auto [column, row] = std::pair(each->everyNth->firstColumn, each->everyNth->firstRow);
+        if (found.emplace(column, row).second)
+            pixels += countOf(area.x - all.of.x, area.width, column, all.everyColumn) *
+                      countOf(area.y - all.of.y, area.height, row, all.everyRow);
+    }
+    return 1 - static_cast<double>(pixels) / static_cast<double>(area.area());
+}
+
 }  // namespace
 
 std::optional<Range> Contents::met(const Content& content) const {
@@ -78,24 +131,51 @@ std::optional<Range> Contents::range() const {
 }
 
 bool Contents::cover(const PixelViewport& area, const Range& range) const {
-    constexpr std::size_t kLong = 1000;
     std::vector<Block> missing = {{area, range}};
     for (const Content& each : all_) {
         if (each.everyNth || !each.isFull)
             continue;
-        std::vector<Block> next;
-        for (const Block& block : missing) {
-            if (!meet(block, each)) {
-                next.push_back(block);
-                continue;
-            }
-            for (const Block& part : outside(block, each)) next.push_back(part);
-        }
-        missing = std::move(next);
+        missing = outside(missing, each);
         if (missing.empty() || missing.size() > kLong)
             break;
     }
     return missing.empty();
+}
+
+std::vector<Gap> Contents::gaps(const PixelViewport& area) const {
+    std::vector<Block> open = {{area, {}}};
+    std::vector<const Content*> shares;
+    for (const Content& each : all_) {
+        if (each.everyNth && each.isFull)
+            shares.push_back(&each);
+        else
+            open = outside(open, each);
+        if (open.size() > kLong)
+            return {};
+    }
+    std::vector<Gap> missing;
+    for (std::size_t tried = 0; !open.empty(); ++tried) {
+        if (tried > kLong)
+            return {};
+        const Block block = open.back();
+        open.pop_back();
+        std::vector<const Content*> there;
+        const Content* part = nullptr;  // that has some of the block only
+        for (const Content* const each : shares) {
+            if (!meet(block, *each))
+                continue;
+            there.push_back(each);
+            if (!outside(block, *each).empty())
+                part = each;
+        }
+        if (part != nullptr) {
+            for (const Block& beside : outside(block, *part)) open.push_back(beside);
+            open.push_back(common(block, *part));
+        } else if (const double share = missingOf(block.area, there); share > 0) {
+            missing.push_back({block.area, block.range, share});
+        }
+    }
+    return missing;
 }
 
 void Contents::add(const Content& content) {

@@ -18,6 +18,13 @@ struct Content {
     bool isFull = true;  ///< all data of the range is there, on all of those pixels
 };
 
+/// A part of a picture, and of the data there, that is not there.
+struct Gap {
+    fabric::PixelViewport area;
+    fabric::Range range;
+    double ofPixels = 1;  ///< the share of them that it is about
+};
+
 /// What is on a picture that is being put together.
 class Contents {
 public:
@@ -30,6 +37,11 @@ public:
     /// Whether all data of `range` is there in all of `area`. False, too, where finding out takes
     /// long.
     bool cover(const fabric::PixelViewport& area, const fabric::Range& range) const;
+
+    /// Parts of `area` where nothing is of some of the data, or on some of the pixels: apart from
+    /// each other, and only what is surely missing. What is not full, and pixels of shares that are
+    /// counted differently, count as there. Nothing where finding out takes long.
+    std::vector<Gap> gaps(const fabric::PixelViewport& area) const;
 
     /// When all shares of a rectangle's columns and rows are there, they count as the rectangle.
     void add(const Content& content);

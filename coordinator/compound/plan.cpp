@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/compound/gaps.h"
 #include "coordinator/compound/needs.h"
 #include "coordinator/compound/pictures.h"
 #include "coordinator/compound/seen_areas.h"
@@ -173,9 +174,12 @@ std::optional<Plan> makePlan(const config::Configuration& configuration, const P
             picture.seen = seenAreas(picture, list, request.fovYDegrees);
             plan.pictures.push_back(std::move(picture));
         }
-    plan.steps = stepsOf(shown, inOrder(shown, list), list);
+    StepList steps = stepsOf(shown, inOrder(shown, list), list);
     if (hasAny(refusals))
         return std::nullopt;
+    if (request.looksForGaps)
+        warnOfGaps(shown, list, plan.pictures, steps.contents, plan.gaps);
+    plan.steps = std::move(steps.steps);
     plan.frames = list.frames.size();
     plan.draws = std::move(list.draws);
     plan.queues = std::move(list.queues);

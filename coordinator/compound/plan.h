@@ -52,6 +52,7 @@ struct PlanRequest {
     /// segments are asked for, the canvas's size counts.
     config::Display display;
     double fovYDegrees = 45;  ///< the camera's, for two eyes where there is no wall
+    bool looksForGaps = false;
 };
 
 /// A picture in the making: all that one channel does for one eye of one destination, in one
@@ -170,6 +171,8 @@ struct Plan {
     std::vector<std::vector<config::ChannelIndex>> queues;
     /// Parts of pictures that show nothing, since an eye is not before the wall there.
     std::size_t blind = 0;
+    /// Of PlanRequest::looksForGaps: warnings of parts of pictures that nobody draws.
+    config::Findings gaps;
 };
 
 /// Why there is no plan: errors, each where it is in the configuration.

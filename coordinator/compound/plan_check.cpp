@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -33,6 +34,7 @@ public:
 
     void check() {
         PlanRequest request;
+        request.looksForGaps = true;
         request.display.canvases.resize(configuration_.canvases.size());
         for (std::size_t i = 0; i < configuration_.canvases.size(); ++i)
             request.outputs.emplace_back().canvas = i;
@@ -53,14 +55,19 @@ private:
         for (std::int64_t frame = 0; frame < frames_; ++frame) {
             request.frameNumber = static_cast<std::uint64_t>(frame);
             Refusals refusals;
-            static_cast<void>(makePlan(configuration_, request, refusals));
+            const std::optional<Plan> plan = makePlan(configuration_, request, refusals);
             for (const config::Finding& each : refusals.impossible.all())
                 if (isNew(each))
                     findings_.error(each.place, each.message);
-            for (const config::Finding& each : refusals.tooLarge.all())
-                if (isNew(each))
-                    findings_.warning(each.place, each.message);
+            for (const config::Finding& each : refusals.tooLarge.all()) warn(each);
+            if (plan)
+                for (const config::Finding& each : plan->gaps.all()) warn(each);
         }
+    }
+
+    void warn(const config::Finding& finding) {
+        if (isNew(finding))
+            findings_.warning(finding.place, finding.message);
     }
 
     bool isNew(const config::Finding& finding) {

@@ -12,7 +12,7 @@ namespace eyrie::compound {
 /// each canvas in each of its layouts, in each frame of its compounds' periods (the first
 /// kMostFramesTried), as large as it is configured. Adds the errors with which there is no picture
 /// in any size, such as frames that wait for each other, and warns of pictures that renderers draw
-/// smaller only, and of a configuration without canvas.
+/// smaller only, of parts of pictures that nobody draws, and of a configuration without canvas.
 void checkPlans(const config::Configuration& configuration, config::Findings& findings);
 inline constexpr std::int64_t kMostFramesTried = 60;
 

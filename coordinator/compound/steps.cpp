@@ -40,7 +40,7 @@ public:
         }
     }
 
-    std::vector<Step> take() { return std::move(steps_); }
+    StepList take() { return {std::move(steps_), std::move(contents_)}; }
 
 private:
     void clear(const Work& work) {
@@ -238,8 +238,8 @@ private:
 
 }  // namespace
 
-std::vector<Step> stepsOf(const config::ResolvedConfiguration& resolved,
-                          const std::vector<Work>& works, WorkList& list) {
+StepList stepsOf(const config::ResolvedConfiguration& resolved, const std::vector<Work>& works,
+                 WorkList& list) {
     StepMaker maker(resolved, list);
     for (const Work& work : works) maker.add(work);
     return maker.take();

@@ -10,9 +10,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include "coordinator/config/eqc_reader.h"
 #include "coordinator/config/resolved.h"
+#include "random_compounds.h"
 
 namespace eyrie::compound {
 namespace {
@@ -106,6 +108,58 @@ TEST(PlanCheck, WarnsOfPicturesThatAreDrawnSmallerOnly) {
     EXPECT_EQ(foundIn(withCompounds(zoomed)), "");
     EXPECT_THAT(foundIn(withCompounds(zoomed, "6000 400")),
                 testing::AllOf(testing::StartsWith("f:3:1: warning: "), HasSubstr("24000x1600")));
+}
+
+/// A destination whose picture two channels make, each what is said of it.
+std::string halves(std::string_view b, std::string_view c) {
+    return withCompounds(
+        fmt::format("compound {{ channel ( segment 0 view \"v\" ) buffer [ COLOR DEPTH ]\n"
+                    "compound {{ channel \"b\" {} outputframe {{ name \"b\" }} }}\n"
+                    "compound {{ channel \"c\" {} outputframe {{ name \"c\" }} }}\n"
+                    "inputframe {{ name \"b\" }} inputframe {{ name \"c\" }} }}",
+                    b, c));
+}
+
+TEST(PlanCheck, WarnsOfPartsOfThePictureThatNobodyDraws) {
+    EXPECT_EQ(foundIn(halves("viewport [ 0 0 .4 1 ]", "viewport [ .5 0 .5 1 ]")),
+              "f:2:1: warning: nothing draws 10 % of what is shown, in viewport [ 0.4 0 0.1 1 ]: "
+              "it is background\n");
+    EXPECT_EQ(foundIn(halves("viewport [ .1 .1 .4 .8 ]", "viewport [ .5 .1 .4 .8 ]")),
+              "f:2:1: warning: nothing draws 36 % of what is shown: it is background\n");
+    EXPECT_EQ(foundIn(halves("viewport [ 0 0 .5 1 ]", "viewport [ .4 0 .6 1 ]")), "");
+}
+
+TEST(PlanCheck, WarnsOfDataThatNobodyDraws) {
+    EXPECT_EQ(foundIn(halves("range [ 0 .4 ]", "range [ .5 1 ]")),
+              "f:2:1: warning: nothing draws 10 % of what is shown, in range [ 0.4 0.5 ]: it is "
+              "background\n");
+    EXPECT_EQ(foundIn(halves("range [ 0 .5 ]", "range [ .5 1 ] viewport [ .5 0 .5 1 ]")),
+              "f:2:1: warning: nothing draws 25 % of what is shown, in viewport [ 0 0 0.5 1 ], in "
+              "range [ 0.5 1 ]: it is background\n");
+}
+
+TEST(PlanCheck, WarnsOfPixelsThatNobodyDraws) {
+    EXPECT_EQ(foundIn(halves("pixel [ 0 0 2 1 ]", "pixel [ 1 0 2 1 ]")), "");
+    EXPECT_EQ(foundIn(halves("pixel [ 0 0 3 1 ]", "pixel [ 1 0 3 1 ]")),
+              "f:2:1: warning: nothing draws 33.3 % of what is shown: it is background\n");
+    EXPECT_EQ(foundIn(halves("pixel [ 0 0 4 1 ]", "pixel [ 0 0 4 1 ]")),
+              "f:2:1: warning: nothing draws 75 % of what is shown: it is background\n");
+}
+
+RC_GTEST_PROP(PlanCheck, FindsNoGapWhereAllIsDrawn, ()) {
+    RandomCompounds random(*rc::gen::arbitrary<std::uint32_t>());
+    const config::Configuration whole = random.maybe()
+                                            ? random.configuration(1 + random.below(4))
+                                            : random.timeMultiplexed(2 + random.below(3));
+    config::Findings findings;
+    checkPlans(whole, findings);
+    RC_ASSERT(describe(findings, "f").empty());
+}
+
+TEST(PlanCheck, LeavesPartsToTheEqualizerThatChoosesThem) {
+    EXPECT_EQ(foundIn(halves("viewport [ 0 0 .4 1 ]",
+                             "viewport [ .5 0 .5 1 ] load_equalizer { mode 2D }")),
+              "");
 }
 
 TEST(PlanCheck, WarnsOfAConfigurationThatShowsNothing) {

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/compound/gaps.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace eyrie::compound {
+namespace {
+
+using fabric::PixelViewport;
+
+std::string describe(std::span<const Gap> gaps, const PixelViewport& whole) {
+    PixelViewport area;
+    fabric::Range range = gaps.front().range;
+    double share = 0;
+    for (const Gap& each : gaps) {
+        area = enclosing(area, each.area);
+        range = {std::min(range.begin, each.range.begin), std::max(range.end, each.range.end)};
+        share += static_cast<double>(each.area.area()) / static_cast<double>(whole.area()) *
+                 (each.range.end - each.range.begin) * each.ofPixels;
+    }
+    std::string where;
+    if (area != whole)
+        where += fmt::format(", in viewport [ {:.4g} {:.4g} {:.4g} {:.4g} ]",
+                             double(area.x - whole.x) / whole.width,
+                             double(area.y - whole.y) / whole.height,
+                             double(area.width) / whole.width, double(area.height) / whole.height);
+    if (range != fabric::Range{})
+        where += fmt::format(", in range [ {:.7g} {:.7g} ]", range.begin, range.end);
+    return fmt::format("nothing draws {:.3g} % of what is shown{}: it is background", 100 * share,
+                       where);
+}
+
+/// Whether an equalizer says, while it runs, what each compound of a destination draws.
+std::vector<bool> areBalanced(const config::ResolvedConfiguration& resolved) {
+    std::vector<bool> balanced(resolved.destinations.size(), false);
+    const auto choosesParts = [](const config::Equalizer& each) {
+        return each.kind == config::EqualizerKind::Load ||
+               each.kind == config::EqualizerKind::Tree || each.kind == config::EqualizerKind::View;
+    };
+    const auto& all = resolved.compounds;
+    for (std::size_t root = 0; root < all.size();) {
+        std::size_t end = root + 1;
+        while (end < all.size() && all[end].depth > 0) ++end;
+        const bool isBalanced =
+            std::any_of(all.begin() + std::ptrdiff_t(root), all.begin() + std::ptrdiff_t(end),
+                        [&](const config::ResolvedCompound& each) {
+                            return each.compound != nullptr &&
+                                   std::ranges::any_of(each.compound->equalizers, choosesParts);
+                        });
+        for (; root < end; ++root)
+            if (isBalanced && all[root].destination)
+                balanced[*all[root].destination] = true;
+    }
+    return balanced;
+}
+
+config::Place placeOf(std::size_t destination, const config::ResolvedConfiguration& resolved) {
+    for (const config::ResolvedCompound& each : resolved.compounds)
+        if (each.destination == destination)
+            return each.place();
+    return {};
+}
+
+}  // namespace
+
+void warnOfGaps(const config::ResolvedConfiguration& resolved, const WorkList& list,
+                std::span<const Picture> pictures, std::span<const Contents> contents,
+                config::Findings& findings) {
+    const std::vector<bool> balanced = areBalanced(resolved);
+    for (const Picture& picture : pictures)
+        for (const std::vector<PicturePart>* const parts : {&picture.parts, &picture.right})
+            for (const PicturePart& part : *parts) {
+                const std::size_t destination = list.framebuffers[part.framebuffer].destination;
+                const Contents& there = contents[part.framebuffer];
+                if (there.all().empty() || balanced[destination] ||
+                    list.blind.contains(destination))
+                    continue;
+                const std::vector<Gap> gaps = there.gaps(part.part);
+                if (!gaps.empty())
+                    findings.warning(placeOf(destination, resolved), describe(gaps, part.part));
+            }
+}
+
+}  // namespace eyrie::compound
