@@ -119,14 +119,13 @@ FlightJudge::Judged FlightJudge::judge(const Frame& frame, const Expected& expec
     ShownTriangles shown(reference_, camera,
                          lod::View(frame.camera, camera.width(), camera.height()), tauPixels,
                          remote_);
+    truth::Suspects suspects{promised + kRasterPixels, {}};
+    if (drawn.statistics.complete && !isCoarser)
+        suspects.shown = [&](double x, double y, double metres) { return shown.at(x, y, metres); };
     Judged result;
-    const truth::DepthComparison found = truth::compareDepth(
-        expected.view, depth, edgePixels(promised, camera),
-        {promised + kRasterPixels,
-         [&](double x, double y, double metres) {
-             return drawn.statistics.complete && !isCoarser ? shown.at(x, y, metres) : std::nullopt;
-         }},
-        truth::LookAround::Farthest, &result.displacements);
+    const truth::DepthComparison found =
+        truth::compareDepth(expected.view, depth, edgePixels(promised, camera), suspects,
+                            truth::LookAround::Farthest, &result.displacements);
     result.error = {.seconds = frame.seconds,
                     .promisedPixels = stretched * promised,
                     .p50Pixels = stretched * found.p50Pixels,

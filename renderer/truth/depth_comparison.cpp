@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -112,11 +113,26 @@ private:
 
     void judgeShown(std::size_t pixel) {
         const auto width = static_cast<std::size_t>(camera_.width());
-        const auto drawn = suspects_.shown(static_cast<double>(pixel % width) + 0.5,
-                                           static_cast<double>(pixel / width) + 0.5, depth_[pixel]);
+        const int x = static_cast<int>(pixel % width);
+        const int y = static_cast<int>(pixel / width);
+        if (!suspects_.shown) {
+            if (mayBeOfAnother(x, y, depth_[pixel]))
+                displacement_[pixel] = std::nan("");
+            return;
+        }
+        const auto drawn = suspects_.shown(x + 0.5, y + 0.5, depth_[pixel]);
         if (drawn && drawn->mayHaveDepth)
             displacement_[pixel] =
                 surface_.displacementFrom(drawn->source, camera_, drawn->point).pixels;
+    }
+
+    /// Whether it may be drawn over the end of another source than it was held against.
+    bool mayBeOfAnother(int x, int y, double depth) const {
+        const fabric::Vec3 point = camera_.rayThrough(x + 0.5, y + 0.5).at(depth);
+        const double reach = reachOfEnds(depth);
+        return surface_.isBesideEndOfOne(point, reach, [&](const fabric::Vec3& end) {
+            return glm::distance(end, point) <= reach && isBeside(x, y, end);
+        });
     }
 
     /// The least displacement around a point that has one; none where the surface lies on both
@@ -187,14 +203,21 @@ private:
     bool endsBeside(int x, int y, double depth) {
         if (++ends_ > kMostEnds)
             return false;
+        return surface_.endsWithin(camera_.rayThrough(x + 0.5, y + 0.5).at(depth),
+                                   reachOfEnds(depth),
+                                   [&](const fabric::Vec3& end) { return isBeside(x, y, end); });
+    }
+
+    /// How far from a point of this depth the source may end beside it, in metres.
+    double reachOfEnds(double depth) const {
         constexpr double kSlant = 8;  // as far across ground seen at 7 degrees
-        const double reach = kSlant * (edge_ + 0.5) * depth / camera_.focalPixels();
-        const auto isThere = [&](const fabric::Vec3& end) {
-            const auto at = camera_.project(end);
-            return at && std::abs(at->x - x - 0.5) <= edge_ + 0.5 &&
-                   std::abs(at->y - y - 0.5) <= edge_ + 0.5;
-        };
-        return surface_.endsWithin(camera_.rayThrough(x + 0.5, y + 0.5).at(depth), reach, isThere);
+        return kSlant * (edge_ + 0.5) * depth / camera_.focalPixels();
+    }
+
+    bool isBeside(int x, int y, const fabric::Vec3& point) const {
+        const auto at = camera_.project(point);
+        return at && std::abs(at->x - x - 0.5) <= edge_ + 0.5 &&
+               std::abs(at->y - y - 0.5) <= edge_ + 0.5;
     }
 
     /// Whether it ends beside all that it has before what is drawn here, or before nothing: what a

@@ -39,7 +39,7 @@ using ShownPoint = std::function<std::optional<DrawnPoint>(double x, double y, d
 
 struct Suspects {
     double abovePixels = kNoHit;
-    ShownPoint shown;
+    ShownPoint shown;  ///< empty: nothing is known of what pixels show
 };
 
 /// What a camera sees of a reference: where the ray through each pixel's centre hits beyond the
@@ -90,7 +90,9 @@ inline constexpr double kDepthSlack = 4;
 /// point that `suspects.shown` names for it instead of by its depth, and held against that point's
 /// own source, but only if that point may have the pixel's depth: what it shows is what was drawn
 /// there. What is seen behind all of the source, be it nothing, is no mistake where a side of what
-/// is drawn before it is at the pixel's centre.
+/// is drawn before it is at the pixel's centre. Without `suspects.shown`, a suspect that may be of
+/// another of several sources, beside that one's end, is held against none
+/// (ReferenceSurface::isBesideEndOfOne).
 DepthComparison compareDepth(const Pinhole& camera, std::span<const float> depth,
                              const ReferenceSurface& reference, int edgePixels,
                              const Suspects& suspects = {});

@@ -57,14 +57,26 @@ ReferenceSurface::HitRange PlacedSurfaces::nearest(const Ray& ray, const Cast& c
     return nearest;
 }
 
+bool PlacedSurfaces::endsWithin(const Placed& placed, const Vec3& point, double reach,
+                                const std::function<bool(const Vec3&)>& isThere) {
+    const double scale = stretchOf(placed.objectFromWorld);
+    return placed.surface->endsWithin(
+        transformed(placed.objectFromWorld, point), reach * scale, [&](const Vec3& inObject) {
+            return isThere(transformed(placed.worldFromObject, inObject));
+        });
+}
+
 bool PlacedSurfaces::endsWithin(const Vec3& point, double reach,
                                 const std::function<bool(const Vec3&)>& isThere) const {
+    return std::ranges::any_of(
+        placed_, [&](const Placed& placed) { return endsWithin(placed, point, reach, isThere); });
+}
+
+bool PlacedSurfaces::isBesideEndOfOne(const Vec3& point, double reach,
+                                      const std::function<bool(const Vec3&)>& isThere) const {
     return std::ranges::any_of(placed_, [&](const Placed& placed) {
-        const double scale = stretchOf(placed.objectFromWorld);
-        return placed.surface->endsWithin(
-            transformed(placed.objectFromWorld, point), reach * scale, [&](const Vec3& inObject) {
-                return isThere(transformed(placed.worldFromObject, inObject));
-            });
+        return !placed.surface->counterpart(transformed(placed.objectFromWorld, point)) &&
+               endsWithin(placed, point, reach, isThere);
     });
 }
 

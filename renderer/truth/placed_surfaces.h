@@ -29,6 +29,8 @@ public:
     HitRange throughSeams(const Ray& ray, double reach) const override;
     bool endsWithin(const fabric::Vec3& point, double reach,
                     const std::function<bool(const fabric::Vec3&)>& isThere) const override;
+    bool isBesideEndOfOne(const fabric::Vec3& point, double reach,
+                          const std::function<bool(const fabric::Vec3&)>& isThere) const override;
     /// In world space the closest of the sources' counterparts.
     std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override;
     Displacement displacement(const Pinhole& camera, const fabric::Vec3& point) const override;
@@ -47,6 +49,8 @@ private:
     /// Of what `cast` says of each, given its surface and the ray in its space.
     template <typename Cast>
     HitRange nearest(const Ray& ray, const Cast& cast) const;
+    static bool endsWithin(const Placed& placed, const fabric::Vec3& point, double reach,
+                           const std::function<bool(const fabric::Vec3&)>& isThere);
     static Displacement displacement(const Placed& placed, const Pinhole& camera,
                                      const fabric::Vec3& point);
 

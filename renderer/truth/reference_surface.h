@@ -48,6 +48,15 @@ public:
         return false;
     }
 
+    /// Of several sources, whether one has no counterpart of `point` and ends beside it, as
+    /// endsWithin says: displacement() holds the point against the others, and it may have been
+    /// made of this one.
+    virtual bool isBesideEndOfOne(
+        const fabric::Vec3& /*point*/, double /*reach*/,
+        const std::function<bool(const fabric::Vec3&)>& /*isThere*/) const {
+        return false;
+    }
+
     /// The point of the source to hold `point` against: for terrain the one in the same column, for
     /// meshes the closest. Nothing where there is none.
     virtual std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const = 0;

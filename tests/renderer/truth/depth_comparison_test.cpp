@@ -287,6 +287,28 @@ TEST(CompareDepth, HoldsADrawnPointAgainstItsOwnSource) {
     EXPECT_GT(maxFrom(1), 20);
 }
 
+/// What is drawn over nodata, as far as outlines are promised, is not of the other terrain that
+/// lies there far below.
+TEST(CompareDepth, HoldsWhatIsBesideAnEndAgainstNoOtherSource) {
+    const auto above = std::make_shared<TerrainRayCaster>(ridge(0));
+    const auto below = std::make_shared<TerrainRayCaster>(
+        HeightGrid{2, 2, {-500, -500, -500, -500}, {-5000, 6000}, {11000, 0}, {0, -11000}});
+    const PlacedSurfaces reference({{above, fabric::Mat4(1)}, {below, fabric::Mat4(1)}});
+    const Pinhole camera = southernView();
+    const auto maxOf = [&](const fabric::Vec3& drawn) {
+        auto depth = depthOf(reference, camera);
+        const auto at = camera.project(drawn);
+        EXPECT_TRUE(at);
+        depth[static_cast<std::size_t>(at->y) * kWidth + static_cast<std::size_t>(at->x)] =
+            static_cast<float>(camera.depth(drawn));
+        return compareDepth(camera, depth, reference, 3, {.abovePixels = 2, .shown = {}}).maxPixels;
+    };
+    const double endMetres = 1000;
+    EXPECT_LT(maxOf({500, endMetres + 10, 0}), 2);
+    EXPECT_GT(maxOf({500, endMetres + 400, 0}), 20) << "nothing ends there";
+    EXPECT_GT(maxOf({500, endMetres + 10, -400}), 2) << "far below what ends";
+}
+
 TEST(CompareDepth, LooksThroughSlitsBesideWhatIsDrawnOnly) {
     const TerrainRayCaster reference = ridge(0);
     const Pinhole camera = southernView();
