@@ -66,6 +66,23 @@ TEST_F(TerrainImportProcess, StaysWithinItsMemory) {
     EXPECT_FALSE(std::filesystem::exists(folder_.path("dem.eyt.scratch")));
 }
 
+TEST_F(TerrainImportProcess, StaysWithinItsMemoryWhileItReprojects) {
+    synthesize(6000);
+    std::ofstream(folder_.path("degrees.vrt"))
+        << R"(<VRTDataset rasterXSize="6000" rasterYSize="6000">
+  <SRS>EPSG:4326</SRS><GeoTransform>8, 0.0003, 0, 47, 0, -0.0003</GeoTransform>
+  <VRTRasterBand dataType="Float32" band="1"><SimpleSource>
+    <SourceFilename relativeToVRT="1">dem.tif</SourceFilename><SourceBand>1</SourceBand>
+  </SimpleSource></VRTRasterBand>
+</VRTDataset>)";
+    Words arguments = importInto("dem.eyt", "256M");
+    arguments[2] = folder_.path("degrees.vrt");
+    arguments.emplace_back("--quiet");
+    const std::int64_t peak = peakBytes(test::eyrieCommand(arguments));
+    ASSERT_GT(peak, 0);
+    EXPECT_LE(peak, std::int64_t{256 + 16} << 20) << "16M: blocks that GDAL warps at once";
+}
+
 TEST_F(TerrainImportProcess, HoldsNoWholeFileOfAUrl) {
     synthesize(6000);  // 144 MB
     const test::Nginx nginx(folder_.path());
