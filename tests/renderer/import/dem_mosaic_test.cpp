@@ -236,6 +236,27 @@ TEST_F(DemMosaic, APlaneInDegreesStaysAPlane) {
     EXPECT_GT(inside, 40000);
 }
 
+/// As GDAL reads GeoTIFFs that say what a pixel is, and nothing of a CRS.
+TEST_F(DemMosaic, TakesAnEngineeringCrsWithoutANameForNone) {
+    const char* const unnamed = "LOCAL_CS[\"unnamed\",UNIT[\"unknown\",1]]";
+    const std::string nowhere =
+        write({.crs = unnamed, .west = 500000, .north = 5200100, .height = constant(1)});
+    const std::string plain =
+        write({.epsg = 0, .west = 500100, .north = 5200100, .height = constant(2)});
+    const auto both = test::readDems({nowhere, plain});
+    ASSERT_TRUE(both.ok()) << both.status();
+    EXPECT_EQ(both->crsWkt, "");
+    EXPECT_EQ(both->grid.columns, 20);
+    const std::string good = write({.west = 500000, .north = 5200100, .height = constant(3)});
+    EXPECT_THAT(test::readDems({good, nowhere}).status().ToString(),
+                HasSubstr(nowhere + ": has not a CRS, unlike " + good));
+    const std::string named = write({.crs = "LOCAL_CS[\"pit\",UNIT[\"metre\",1]]",
+                                     .west = 500000,
+                                     .north = 5200100,
+                                     .height = constant(4)});
+    EXPECT_THAT(test::readDem(named)->crsWkt, HasSubstr("pit"));
+}
+
 /// Until it ends, this process may open no more than `files`; `most` is how far it may raise that.
 class OpenFilesLimit {
 public:
