@@ -265,7 +265,7 @@ absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gd
         return invalid(path,
                        "its geotransform is not finite or has no area; set another "
                        "(gdal_edit.py -a_ullr)");
-    const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset.get());
+    const OGRSpatialReferenceH crs = crsOf(dataset.get());
     if (crs != nullptr)
         file.crs.reset(OSRClone(crs));
     Georeference reference{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}};

@@ -301,7 +301,7 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
         file.notes.push_back(
             fmt::format("band 1 of {} taken for heights", GDALGetRasterCount(dataset.get())));
     RETURN_IF_ERROR(checkPlace(path, dataset.get()));
-    const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset.get());
+    const OGRSpatialReferenceH crs = crsOf(dataset.get());
     ASSIGN_OR_RETURN(const ValueRule rule, valueRule(path, band, crs, file.notes));
     std::array<double, 6> ignored{};
     file.isGeoreferenced = GDALGetGeoTransform(dataset.get(), ignored.data()) == CE_None;

@@ -83,6 +83,15 @@ std::string metricWktOf(OGRSpatialReferenceH reference) {
     return wktOf(metric.get());
 }
 
+OGRSpatialReferenceH crsOf(GDALDatasetH raster) {
+    const OGRSpatialReferenceH crs = GDALGetSpatialRef(raster);
+    if (crs == nullptr || OSRIsLocal(crs) == 0 || OSRGetLinearUnits(crs, nullptr) != 1)
+        return crs;
+    const char* const name = OSRGetName(crs);
+    const bool isNamed = name != nullptr && !EQUAL(name, "unnamed") && !EQUAL(name, "unknown");
+    return isNamed ? crs : nullptr;
+}
+
 void cutToOneTurn(OGRSpatialReferenceH crs, Georeference& reference, int& columns) {
     constexpr double kTurn = 360;
     const double pixel = std::abs(reference.perColumn.x);

@@ -69,6 +69,10 @@ std::string metricWktOf(OGRSpatialReferenceH reference);
 /// Null: none.
 bool isSameCrs(OGRSpatialReferenceH a, OGRSpatialReferenceH b);
 
+/// Of a raster; null where it says of none. So do GeoTIFFs that have geographic keys but name no
+/// CRS: GDAL makes an engineering CRS without a name of that, which is nowhere on earth.
+OGRSpatialReferenceH crsOf(GDALDatasetH raster);
+
 /// Cuts a raster in degrees, which has so many columns, to 360 of them. What goes on repeats its
 /// first ones; and where a raster is wider, be it by a rounding, GDAL's warper knows each longitude
 /// by one name only: of one from 0 it would leave out all that is -180 to 0 elsewhere.

@@ -200,6 +200,63 @@ TEST_F(DemMosaic, AllInDegreesGoesToTheZoneOfTheirMiddle) {
     EXPECT_EQ(middle, 5) << "no gap where the two meet";
 }
 
+/// A tile of SRTM in the Alps, 64 x 93 m of pixels that fall by 20 m to each side. A thousandth of
+/// a pixel is how far the warper may be off in each direction; the rest is rounding.
+TEST_F(DemMosaic, APlaneInDegreesStaysAPlane) {
+    constexpr double kPixel = 1.0 / 1200, kFall = 20;
+    const auto plane = [](double longitude, double latitude) {
+        return ((longitude - 8.5) + (latitude - 46.5)) / kPixel * kFall;
+    };
+    const auto dem = test::readDem(write({.epsg = kDegrees,
+                                          .west = 8.5,
+                                          .north = 46.7,
+                                          .pixel = kPixel,
+                                          .columns = 240,
+                                          .rows = 240,
+                                          .height = plane}));
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    OGRSpatialReference local, degrees;
+    local.importFromWkt(dem->crsWkt.c_str());
+    local.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    degrees.importFromEPSG(kDegrees);
+    degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    const std::unique_ptr<OGRCoordinateTransformation> toDegrees(
+        OGRCreateCoordinateTransformation(&local, &degrees));
+    int inside = 0;
+    for (std::int32_t j = 0; j < dem->grid.rows; ++j)
+        for (std::int32_t i = 0; i < dem->grid.columns; ++i) {
+            double x = dem->grid.origin.x + dem->grid.perColumn.x * i;
+            double y = dem->grid.origin.y + dem->grid.perRow.y * j;
+            ASSERT_TRUE(toDegrees->Transform(1, &x, &y));
+            if (std::abs(x - 8.6) > 0.1 - kPixel || std::abs(y - 46.6) > 0.1 - kPixel)
+                continue;
+            ++inside;
+            ASSERT_NEAR(dem->grid.at(i, j), plane(x, y), 0.001 * 2 * kFall + 0.01) << x << " " << y;
+        }
+    EXPECT_GT(inside, 40000);
+}
+
+/// As GDAL reads GeoTIFFs that say what a pixel is, and nothing of a CRS.
+TEST_F(DemMosaic, TakesAnEngineeringCrsWithoutANameForNone) {
+    const char* const unnamed = "LOCAL_CS[\"unnamed\",UNIT[\"unknown\",1]]";
+    const std::string nowhere =
+        write({.crs = unnamed, .west = 500000, .north = 5200100, .height = constant(1)});
+    const std::string plain =
+        write({.epsg = 0, .west = 500100, .north = 5200100, .height = constant(2)});
+    const auto both = test::readDems({nowhere, plain});
+    ASSERT_TRUE(both.ok()) << both.status();
+    EXPECT_EQ(both->crsWkt, "");
+    EXPECT_EQ(both->grid.columns, 20);
+    const std::string good = write({.west = 500000, .north = 5200100, .height = constant(3)});
+    EXPECT_THAT(test::readDems({good, nowhere}).status().ToString(),
+                HasSubstr(nowhere + ": has not a CRS, unlike " + good));
+    const std::string named = write({.crs = "LOCAL_CS[\"pit\",UNIT[\"metre\",1]]",
+                                     .west = 500000,
+                                     .north = 5200100,
+                                     .height = constant(4)});
+    EXPECT_THAT(test::readDem(named)->crsWkt, HasSubstr("pit"));
+}
+
 /// Until it ends, this process may open no more than `files`; `most` is how far it may raise that.
 class OpenFilesLimit {
 public:

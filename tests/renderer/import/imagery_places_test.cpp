@@ -251,6 +251,21 @@ TEST_F(ImageryImport, StretchesAPictureWithoutAPlaceOverTheWholeTerrain) {
     EXPECT_LE(difference(image.at(high, low), {200, 40, 0, 255}), kTolerance) << "south-east";
 }
 
+/// As GDAL reads GeoTIFFs that say what a pixel is, and nothing of a CRS.
+TEST_F(ImageryImport, WithAnEngineeringCrsWithoutANameIsInTheTerrains) {
+    write(over(290, 290, 10, waves(100)));
+    std::ofstream(folder_.path("unnamed.vrt"))
+        << "<VRTDataset rasterXSize=\"29\" rasterYSize=\"29\">"
+           "<SRS>LOCAL_CS[\"unnamed\",UNIT[\"unknown\",1]]</SRS>"
+           "<GeoTransform>500000,10,0,5000290,0,-10</GeoTransform>"
+           "<VRTRasterBand dataType=\"Byte\" band=\"1\"><SimpleSource>"
+           "<SourceFilename relativeToVRT=\"1\">picture.tif</SourceFilename>"
+           "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>";
+    const auto file = imported(test::slope(30, 30, 10), {folder_.path("unnamed.vrt")});
+    ASSERT_NE(file, nullptr);
+    EXPECT_EQ(file->index().imagery->coveredTexels, 29U * 29U);
+}
+
 TEST_F(ImageryImport, WithoutAGeotransformSaysHowItIsToBeBroughtToOne) {
     write(over(290, 290, 10, waves(100)));
     std::ofstream(folder_.path("points.vrt"))
