@@ -29,6 +29,8 @@ public:
     /// What an earlier job found in posts that need not be read again: among the findings from now
     /// on.
     virtual void foundBefore(std::vector<std::string> /*findings*/) {}
+    /// Bytes of memory that reading takes beside what GDAL's cache has.
+    virtual std::uint64_t readingBytes() const { return 0; }
     /// Gives back what reading holds in memory, for about as many bytes; nothing is read again.
     virtual std::uint64_t release() { return 0; }
 };

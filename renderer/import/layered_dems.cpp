@@ -52,6 +52,13 @@ public:
         return absl::OkStatus();
     }
 
+    std::uint64_t readingBytes() const override {
+        constexpr std::uint64_t kWarping = std::uint64_t{40} << 20;  // measured
+        return std::ranges::any_of(layers_, [](const auto& each) { return bool{each.warped}; })
+                   ? kWarping
+                   : 0;
+    }
+
     std::vector<std::string> findings() const override {
         std::vector<std::string> findings = findings_;
         for (const DemLayer& layer : layers_)

@@ -26,16 +26,16 @@ fabric::Mat4 objectFromLattice(const terrain::GridFrame& frame,
 }
 
 /// Bytes that every import holds in memory, whatever lies on scratch.
-std::uint64_t residentBytes(const terrain::GridFrame& frame, bool hasImagery) {
+std::uint64_t residentBytes(const HeightSource& posts, bool hasImagery) {
     // The program with GDAL and PROJ, GDAL's cache, strips and pages under way: measured.
     constexpr std::uint64_t kProgram = std::uint64_t{160} << 20;
     // Summaries, coarse vertex levels, tile records, and those again while they are written.
     constexpr std::uint64_t kPostsPerByte = 10;
     // What GDAL warps at once, and texture tiles under way.
     constexpr std::uint64_t kImagery = std::uint64_t{40} << 20;
-    return kProgram + (hasImagery ? kImagery : 0) +
-           static_cast<std::uint64_t>(frame.columns) * static_cast<std::uint64_t>(frame.rows) /
-               kPostsPerByte;
+    return kProgram + posts.readingBytes() + (hasImagery ? kImagery : 0) +
+           static_cast<std::uint64_t>(posts.frame().columns) *
+               static_cast<std::uint64_t>(posts.frame().rows) / kPostsPerByte;
 }
 
 /// What level 0 may be off at least: where heights are rounded, by half a step for that and half of
@@ -72,15 +72,15 @@ std::vector<std::string> notesOnError(const terrain::HeightLattice& lattice,
                     finest, *errorMetres, lattice.stepMetres)};
 }
 
-std::vector<std::string> notesOnMemory(const terrain::GridFrame& frame, bool hasImagery,
+std::vector<std::string> notesOnMemory(const HeightSource& posts, bool hasImagery,
                                        std::uint64_t memoryBytes) {
-    const std::uint64_t taken = residentBytes(frame, hasImagery) + kLeastScratch;
+    const std::uint64_t taken = residentBytes(posts, hasImagery) + kLeastScratch;
     if (taken <= memoryBytes)
         return {};
     return {
         fmt::format("takes about {} MB of memory, not {} MB: what is known of the tiles of "
                     "{} x {} posts does not go to the scratch file",
-                    taken >> 20, memoryBytes >> 20, frame.columns, frame.rows)};
+                    taken >> 20, memoryBytes >> 20, posts.frame().columns, posts.frame().rows)};
 }
 
 terrain::EytIndex emptyIndex(const terrain::ElevationModel& model,
@@ -104,9 +104,8 @@ std::uint32_t texturesOf(const ImagerySource* imagery) {
                                     static_cast<std::uint32_t>(imagery->pyramid().tilesY(0));
 }
 
-std::uint64_t scratchBytes(const terrain::GridFrame& frame, bool hasImagery,
-                           std::uint64_t memoryBytes) {
-    const std::uint64_t resident = residentBytes(frame, hasImagery);
+std::uint64_t scratchBytes(const HeightSource& posts, bool hasImagery, std::uint64_t memoryBytes) {
+    const std::uint64_t resident = residentBytes(posts, hasImagery);
     return std::max(kLeastScratch, memoryBytes > resident ? memoryBytes - resident : 0);
 }
 

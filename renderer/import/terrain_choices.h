@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/import/height_source.h"
 #include "renderer/import/imagery_source.h"
 #include "renderer/terrain/deviation.h"
 #include "renderer/terrain/eyt_format.h"
@@ -25,7 +26,7 @@ std::vector<std::string> notesOnError(const terrain::HeightLattice& lattice,
                                       const std::optional<double>& errorMetres);
 
 /// What is to be said where an import takes more memory than it was allowed.
-std::vector<std::string> notesOnMemory(const terrain::GridFrame& frame, bool hasImagery,
+std::vector<std::string> notesOnMemory(const HeightSource& posts, bool hasImagery,
                                        std::uint64_t memoryBytes);
 
 /// With empty records of all tiles and pages.
@@ -38,8 +39,7 @@ std::uint32_t texturesOf(const ImagerySource* imagery);
 
 /// Bytes of a scratch's memory, so that the whole process takes about `memoryBytes`, or as little
 /// more as it can.
-std::uint64_t scratchBytes(const terrain::GridFrame& frame, bool hasImagery,
-                           std::uint64_t memoryBytes);
+std::uint64_t scratchBytes(const HeightSource& posts, bool hasImagery, std::uint64_t memoryBytes);
 
 /// The scratch file for what becomes `out`: beside it, or in `folder` unless that is empty.
 std::string scratchPath(const std::string& out, const std::string& folder);

@@ -108,7 +108,7 @@ public:
           options_(options),
           control_(control),
           scratch_(scratchPath(out, options.scratchFolder),
-                   scratchBytes(posts.frame(), !options.imagery.empty(), options.memoryBytes)),
+                   scratchBytes(posts, !options.imagery.empty(), options.memoryBytes)),
           model_(emptyModel(posts.frame(), scratch_)),
           levels_(terrain::Quadtree(static_cast<std::uint32_t>(model_.frame.columns),
                                     static_cast<std::uint32_t>(model_.frame.rows))
@@ -207,7 +207,7 @@ private:
         TerrainImportReport report = reportOf(index, postMetres, sizeBytes);
         for (const auto& notes :
              {notesOnError(lattice, options_.errorMetres),
-              notesOnMemory(model_.frame, !options_.imagery.empty(), options_.memoryBytes)})
+              notesOnMemory(posts_, !options_.imagery.empty(), options_.memoryBytes)})
             report.notes.insert(report.notes.end(), notes.begin(), notes.end());
         return report;
     }

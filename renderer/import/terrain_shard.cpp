@@ -48,7 +48,7 @@ public:
                                pictureFingerprint(options.imagery), shard.count)),
           path_(partPath(out, shard)),
           scratch_(scratchPath(path_, options.scratchFolder),
-                   scratchBytes(posts.frame(), imagery != nullptr, options.memoryBytes)),
+                   scratchBytes(posts, imagery != nullptr, options.memoryBytes)),
           model_(emptyModel(posts.frame(), scratch_)),
           heights_(model_, scratch_, 1),
           normals_(model_, scratch_, 1),
@@ -94,7 +94,7 @@ private:
                 plan_.texturesOf(shard_.index).size(),
                 sizeBytes,
                 wasThere,
-                notesOnMemory(model_.frame, imagery_ != nullptr, options_.memoryBytes)};
+                notesOnMemory(posts_, imagery_ != nullptr, options_.memoryBytes)};
     }
 
     absl::Status read() {
