@@ -2,11 +2,13 @@
 #include "renderer/import/dem_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <optional>
 
+#include <absl/strings/ascii.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
 
@@ -41,36 +43,46 @@ absl::Status checkBand(const std::string& path, GDALRasterBandH band) {
     return absl::OkStatus();
 }
 
-/// Metres per unit of a band's unit tag; 1 for metres and for what it does not know.
-double metresPerUnit(const std::string& unit, std::vector<std::string>& notes) {
+/// Metres per unit of a band's unit tag, singular or plural; 1 for metres and for what it does not
+/// know.
+double metresPerUnit(const std::string& tag, std::vector<std::string>& notes) {
     struct Unit {
         const char* name;
         double metres;
     };
     constexpr double kFoot = 0.3048;
     constexpr double kUsSurveyFoot = 1200.0 / 3937.0;
-    constexpr std::array<Unit, 20> kUnits = {{{"", 1},
+    constexpr std::array<Unit, 27> kUnits = {{{"", 1},
                                               {"m", 1},
                                               {"metre", 1},
                                               {"meter", 1},
-                                              {"metres", 1},
-                                              {"meters", 1},
                                               {"ft", kFoot},
                                               {"feet", kFoot},
                                               {"foot", kFoot},
                                               {"International foot", kFoot},
+                                              {"foot (International)", kFoot},
                                               {"US survey foot", kUsSurveyFoot},
+                                              {"US survey feet", kUsSurveyFoot},
                                               {"us-ft", kUsSurveyFoot},
                                               {"ftUS", kUsSurveyFoot},
                                               {"foot_survey_us", kUsSurveyFoot},
                                               {"Foot_US", kUsSurveyFoot},
                                               {"km", 1000},
+                                              {"kilometre", 1000},
+                                              {"kilometer", 1000},
                                               {"dm", 0.1},
+                                              {"decimetre", 0.1},
+                                              {"decimeter", 0.1},
                                               {"cm", 0.01},
-                                              {"centimeters", 0.01},
-                                              {"mm", 0.001}}};
+                                              {"centimetre", 0.01},
+                                              {"centimeter", 0.01},
+                                              {"mm", 0.001},
+                                              {"millimetre", 0.001},
+                                              {"millimeter", 0.001}}};
+    const std::string unit(absl::StripAsciiWhitespace(tag));
     for (const Unit& known : kUnits)
-        if (EQUAL(unit.c_str(), known.name)) {
+        if (EQUAL(unit.c_str(), known.name) ||
+            EQUAL(unit.c_str(), fmt::format("{}s", known.name).c_str())) {
             if (known.metres != 1)
                 notes.push_back(fmt::format("heights in {} turned to metres", unit));
             return known.metres;

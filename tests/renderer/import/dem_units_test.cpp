@@ -2,6 +2,7 @@
 // Rasters whose heights are in units and above datums of their own, as one terrain in metres.
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,6 +26,22 @@ TEST_F(DemMosaic, TurnsEachRastersOwnUnitToMetres) {
     EXPECT_FLOAT_EQ(dem->grid.at(5, 5), 100);
     EXPECT_FLOAT_EQ(dem->grid.at(15, 5), 304.8F);
     EXPECT_FLOAT_EQ(dem->grid.at(25, 5), 21);
+}
+
+TEST_F(DemMosaic, KnowsUnitsHoweverTheyAreWritten) {
+    const std::pair<const char*, float> units[] = {{"Feet ", 304.8F},
+                                                   {"foot (International)", 304.8F},
+                                                   {"US survey feet", 304.8006F},
+                                                   {"kilometers", 1.0e6F},
+                                                   {"Decimetre", 100},
+                                                   {"METERS", 1000}};
+    for (const auto& [unit, metres] : units) {
+        const auto dem = test::readDems(
+            {write({.west = 500100, .north = 5200100, .height = constant(1000), .unit = unit})});
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        EXPECT_NEAR(dem->grid.at(5, 5), metres, 1e-3) << unit;
+        EXPECT_THAT(dem->notes, testing::Not(testing::Contains(HasSubstr("unknown")))) << unit;
+    }
 }
 
 constexpr double kFeetPerMetre = 3937.0 / 1200;  // of US survey feet, EPSG:6360's
