@@ -312,7 +312,8 @@ private:
 
     absl::StatusOr<DemSource> assembled(std::vector<DemLayer> layers) {
         const PixelBox all = extent_.value();
-        RETURN_IF_ERROR(checkSize(name_, all.columns, all.rows));
+        const std::string grid = crs_ ? OSRGetName(crs_.get()) : "one grid";
+        RETURN_IF_ERROR(checkSize(name_, all.columns, all.rows, " in " + grid));
         for (DemLayer& layer : layers) {
             layer.box.column -= all.column;
             layer.box.row -= all.row;
@@ -323,9 +324,8 @@ private:
                                          metres,
                                      Vec2(grid_.width, 0) * metres,
                                      Vec2(0, -grid_.height) * metres};
-        notes_.push_back(fmt::format("brought to {}: {} x {} posts, {:.4g} m apart",
-                                     crs_ ? OSRGetName(crs_.get()) : "one grid", all.columns,
-                                     all.rows, reference.perColumn.x));
+        notes_.push_back(fmt::format("brought to {}: {} x {} posts, {:.4g} m apart", grid,
+                                     all.columns, all.rows, reference.perColumn.x));
         if (const double share = placed_ / postsOf(all); share < kMostlyEmpty)
             notes_.push_back(
                 fmt::format("at most {:.2g} % of these posts are of a raster; what lies far apart "

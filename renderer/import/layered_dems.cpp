@@ -136,17 +136,19 @@ double determinant(const Georeference& g) {
     return g.perColumn.x * g.perRow.y - g.perColumn.y * g.perRow.x;
 }
 
-absl::Status checkSize(const std::string& path, std::int64_t columns, std::int64_t rows) {
+absl::Status checkSize(const std::string& path, std::int64_t columns, std::int64_t rows,
+                       const std::string& grid) {
     if (columns < 2 || rows < 2)
-        return invalid(
-            path, fmt::format("has {} x {} posts; a terrain needs at least 2 x 2", columns, rows));
+        return invalid(path, fmt::format("has {} x {} posts{}; a terrain needs at least 2 x 2",
+                                         columns, rows, grid));
     constexpr std::int64_t kMaxSide = terrain::kMaxPosts;
     if (columns > kMaxSide || rows > kMaxSide ||
         static_cast<std::uint64_t>(columns * rows) > terrain::kMaxGridPosts)
-        return absl::ResourceExhaustedError(fmt::format(
-            "{}: has {} x {} posts; the limits are {} posts a side and {} in all; import a part of "
-            "it (gdal_translate -srcwin) or fewer posts (-outsize)",
-            path, columns, rows, kMaxSide, terrain::kMaxGridPosts));
+        return absl::ResourceExhaustedError(
+            fmt::format("{}: has {} x {} posts{}; the limits are {} posts a side and {} in all; "
+                        "import a part of "
+                        "it (gdal_translate -srcwin) or fewer posts (-outsize)",
+                        path, columns, rows, grid, kMaxSide, terrain::kMaxGridPosts));
     return absl::OkStatus();
 }
 

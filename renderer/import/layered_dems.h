@@ -34,8 +34,10 @@ struct DemLayer {
 /// Area of a pixel, below 0 where rows go towards lower y while columns go towards higher x.
 double determinant(const Georeference& reference);
 
-/// InvalidArgument or ResourceExhausted where a terrain of so many posts cannot be.
-absl::Status checkSize(const std::string& path, std::int64_t columns, std::int64_t rows);
+/// InvalidArgument or ResourceExhausted where a terrain of so many posts cannot be. `grid` says
+/// which they are, where they are not the raster's own, such as " in WGS 84 / UTM zone 32N".
+absl::Status checkSize(const std::string& path, std::int64_t columns, std::int64_t rows,
+                       const std::string& grid = {});
 
 /// Layers as posts, the best one with data first. `reference` is in metres, of a raster of
 /// `columns` x `rows`.

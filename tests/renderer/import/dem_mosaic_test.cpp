@@ -200,6 +200,18 @@ TEST_F(DemMosaic, AllInDegreesGoesToTheZoneOfTheirMiddle) {
     EXPECT_EQ(middle, 5) << "no gap where the two meet";
 }
 
+TEST_F(DemMosaic, NamesTheGridOnWhichItHasTooFewPosts) {
+    const std::string narrow = write({.crs = "EPSG:4326",
+                                      .west = 9,
+                                      .north = 50,
+                                      .pixel = 0.0003,
+                                      .columns = 2,
+                                      .rows = 9,
+                                      .height = constant(100)});
+    EXPECT_THAT(std::string(test::readDems({narrow}).status().message()),
+                HasSubstr("has 1 x 9 posts in UTM zone 32N; a terrain needs at least 2 x 2"));
+}
+
 /// A tile of SRTM in the Alps, 64 x 93 m of pixels that fall by 20 m to each side. A thousandth of
 /// a pixel is how far the warper may be off in each direction; the rest is rounding.
 TEST_F(DemMosaic, APlaneInDegreesStaysAPlane) {
