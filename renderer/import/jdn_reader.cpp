@@ -116,6 +116,7 @@ private:
     absl::Status readTexturedVertex(std::string_view value);
     absl::Status readTexturedFace(std::string_view value);
     absl::Status readCount(std::string_view value, std::uint64_t& count);
+    absl::Status readObjectCount(std::string_view value, std::uint64_t& count);
     absl::Status readVertex(std::string_view value);
     absl::Status readNormal(std::string_view value);
     absl::Status readCorners(std::string_view value, std::uint64_t count, std::string_view what,
@@ -184,6 +185,16 @@ absl::Status JdnParser::readCount(std::string_view value, std::uint64_t& count) 
         return wrong(fmt::format("{}", count),
                      fmt::format("at most {}, what the rest of the file may hold", most),
                      "the file is truncated or damaged: copy or export it again");
+    return absl::OkStatus();
+}
+
+/// Of the object: corners that were read are below it, so it stays.
+absl::Status JdnParser::readObjectCount(std::string_view value, std::uint64_t& count) {
+    const std::uint64_t before = count;
+    RETURN_IF_ERROR(readCount(value, count));
+    if (before > 0 && count != before)
+        return wrong(fmt::format("{}", count), fmt::format("{}, as the object said before", before),
+                     "remove one of the lines or export the scene again");
     return absl::OkStatus();
 }
 
@@ -336,15 +347,15 @@ absl::Status JdnParser::readValue(const std::string& key, std::string_view value
         return absl::OkStatus();
     }
     if (isInObject_ && key == "Num textured vertices")
-        return readCount(value, texturedVertices_);
+        return readObjectCount(value, texturedVertices_);
     if (isInObject_ && key == "Textured Vert")
         return readTexturedVertex(value);
     if (isInObject_ && key == "Textured Face")
         return readTexturedFace(value);
     if (isInObject_ && key == "Num Vertices")
-        return readCount(value, vertices_);
+        return readObjectCount(value, vertices_);
     if (isInObject_ && key == "Num Faces")
-        return readCount(value, faces_);
+        return readObjectCount(value, faces_);
     if (isInObject_ && key == "Vert")
         return readVertex(value);
     if (isInObject_ && key == "Face")

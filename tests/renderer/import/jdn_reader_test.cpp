@@ -211,6 +211,11 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"NegativeCount", "Vertices = 4", "Vertices = -4", "a count"},
         Damage{"MissingObject", "Objects = 2", "Objects = 3", "found 2 objects, expected 3"},
         Damage{"MissingMaterial", "Materials = 1", "Materials = 2", "1 materials, expected 2"},
+        Damage{"FewerVerticesThanBefore", "Face = 0 2 3\n", "Face = 0 2 3\nNum Vertices = 3\n",
+               "line 29, Num Vertices: found 3, expected 4, as the object said before"},
+        Damage{"FewerTexturedVerticesThanBefore", "Textured Face = 0 0 0\n",
+               "Textured Face = 0 0 0\nNum textured vertices = 0\n",
+               "found 0, expected 1, as the object said before"},
         Damage{"FacesBeforeVertices", "Num   Vertices = 4\r\n", "", "before Num Vertices"}),
     [](const auto& test) { return test.param.name; });
 
