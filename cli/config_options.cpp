@@ -81,8 +81,9 @@ void addScreenOptions(CLI::App& command, ConfigOptions& options) {
                     "Which of its segments, by name or position [the whole canvas]")
         ->type_name("NAME");
     command
-        .add_option("--layout", options.layout,
-                    "Which of its layouts it shows, by name or position [the first]")
+        .add_option(
+            "--layout", options.layout,
+            "Which of its layouts it shows, by name or position among all layouts [its first]")
         ->type_name("NAME");
     command.add_option("--eye", options.shown.eye, "What one eye sees [what the view shows]")
         ->transform(valueOf(kEyes))

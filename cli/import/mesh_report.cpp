@@ -68,14 +68,22 @@ void printJson(const MeshImportChoices& choices, const import::MeshImportReport&
     fmt::print("{}\n", json.str());
 }
 
+std::string contraryOf(const import::OrientCounts& counts) {
+    return counts.contraryEdges == 0
+               ? ""
+               : fmt::format("; across {} edges, as on a Moebius strip, no winding agrees",
+                             counts.contraryEdges);
+}
+
 void printText(const MeshImportChoices& choices, const import::MeshImportReport& made) {
     for (const std::string& note : notesOf(made))
         tell(fmt::format("{}: {}", titleOf(choices.sources), note));
     const import::PackCounts& counts = made.counts;
     if (choices.how.pack.orients)
-        tell(fmt::format("{}: turned {} triangles of {} surfaces, {} of which are closed",
+        tell(fmt::format("{}: turned {} triangles of {} surfaces, {} of which are closed{}",
                          titleOf(choices.sources), counts.orient.turnedTriangles,
-                         counts.orient.components, counts.orient.closedComponents));
+                         counts.orient.components, counts.orient.closedComponents,
+                         contraryOf(counts.orient)));
     const std::string points =
         made.pointNodes > 0 ? fmt::format(", {} nodes as points from afar", made.pointNodes) : "";
     const auto hasNodes = [](const mesh::LodLevel& level) { return level.nodes > 0; };

@@ -109,8 +109,11 @@ struct RenderedFrame {
     std::vector<CodedTile> tiles = {};
 };
 
-/// For a person to read, where a frame shows nothing; empty where it shows something.
+/// For a person to read, where a frame shows nothing; empty where it shows something. What a canvas
+/// puts together of others' frames, as monitors do, is drawn and seen by no sight of its own.
 inline std::string_view whyEmpty(const RenderedFrame& frame) {
+    if (!frame.parts.empty())
+        return "";
     for (const PictureFacts& picture : frame.pictures)
         if (!picture.seen || !picture.seen->empty())
             return "";

@@ -43,5 +43,13 @@ TEST(Note, AFrameOfWhichAPartShowsNothingIsNoEmptyOne) {
     EXPECT_EQ(whyEmpty(frame), "");
 }
 
+TEST(Note, ACanvasOfOthersFramesIsNoEmptyOne) {
+    RenderedFrame monitor;
+    monitor.pictures = {{0, std::vector<fabric::SeenArea>()}};
+    EXPECT_THAT(std::string(whyEmpty(monitor)), testing::HasSubstr("Nothing is seen here"));
+    monitor.parts.emplace_back();
+    EXPECT_EQ(whyEmpty(monitor), "");
+}
+
 }  // namespace
 }  // namespace eyrie::coordinator

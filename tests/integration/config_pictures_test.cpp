@@ -235,6 +235,16 @@ TEST_F(ConfigPictures, WhatIsNotThereIsNamed) {
         << outcome.errors;
 }
 
+TEST_F(ConfigPictures, AMonitorShowsWhatOthersDraw) {
+    const test::Outcome outcome = test::eyrie(
+        {"render", folder_->path("ball.eym"), "--camera", folder_->path("cam.json"), "--config",
+         fmt::format("{}/../shared/data/eqc/3-window.monitor.eqc", EYRIE_SOURCE_DIR), "--canvas",
+         "1", "--size", "64x48", "-o", folder_->path("out.png")});
+    EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors;
+    EXPECT_THAT(outcome.errors, testing::AllOf(Not(HasSubstr(" 0 triangles")),
+                                               Not(HasSubstr("Nothing is seen here"))));
+}
+
 TEST_F(ConfigPictures, LayoutsAreSwitchedOnTheCanvasThatIsSeen) {
     const std::string file = folder_->path("canvases.eqc");
     std::ofstream(file) << R"(config {
