@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 /// Raise either when an importer makes something else of the same source.
 constexpr int kMeshImporterVersion = 12;
-constexpr int kTerrainImporterVersion = 9;
+constexpr int kTerrainImporterVersion = 10;
 
 std::string lowerCaseEnding(const std::string& path) {
     std::string ending = fs::path(page::withoutQuery(path)).extension().string();
