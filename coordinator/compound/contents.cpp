@@ -70,7 +70,7 @@ std::vector<Block> outside(const Block& block, const Content& content) {
 
 constexpr std::size_t kLong = 1000;
 
-/// What of the blocks is outside of `content`; nothing, too, where that is many.
+/// What of `blocks` is outside of `content`.
 std::vector<Block> outside(const std::vector<Block>& blocks, const Content& content) {
     std::vector<Block> left;
     for (const Block& block : blocks) {

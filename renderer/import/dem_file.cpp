@@ -80,9 +80,13 @@ double metresPerUnit(const std::string& tag, std::vector<std::string>& notes) {
                                               {"millimetre", 0.001},
                                               {"millimeter", 0.001}}};
     const std::string unit(absl::StripAsciiWhitespace(tag));
+    const auto isCalled = [&unit](const std::string& name) {
+        constexpr std::size_t kLongestSymbol = 3;  // of which there is no plural
+        return EQUAL(unit.c_str(), name.c_str()) ||
+               (name.size() > kLongestSymbol && EQUAL(unit.c_str(), (name + 's').c_str()));
+    };
     for (const Unit& known : kUnits)
-        if (EQUAL(unit.c_str(), known.name) ||
-            EQUAL(unit.c_str(), fmt::format("{}s", known.name).c_str())) {
+        if (isCalled(known.name)) {
             if (known.metres != 1)
                 notes.push_back(fmt::format("heights in {} turned to metres", unit));
             return known.metres;

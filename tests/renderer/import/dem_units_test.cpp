@@ -42,6 +42,10 @@ TEST_F(DemMosaic, KnowsUnitsHoweverTheyAreWritten) {
         EXPECT_NEAR(dem->grid.at(5, 5), metres, 1e-3) << unit;
         EXPECT_THAT(dem->notes, testing::Not(testing::Contains(HasSubstr("unknown")))) << unit;
     }
+    const auto seconds = test::readDems(
+        {write({.west = 500100, .north = 5200100, .height = constant(1000), .unit = "s"})});
+    ASSERT_TRUE(seconds.ok()) << seconds.status();
+    EXPECT_THAT(seconds->notes, testing::Contains(HasSubstr("height unit 's' is unknown")));
 }
 
 constexpr double kFeetPerMetre = 3937.0 / 1200;  // of US survey feet, EPSG:6360's

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <string>
@@ -45,6 +46,15 @@ protected:
         const std::string path = folder_.path(name);
         test::writePicture(path, picture);
         return path;
+    }
+
+    /// picture.tif as a raster of so many pixels a side, of which `place` says where it is.
+    void writeVrt(const std::string& name, int side, const std::string& place) {
+        std::ofstream(folder_.path(name))
+            << "<VRTDataset rasterXSize=\"" << side << "\" rasterYSize=\"" << side << "\">" << place
+            << "<VRTRasterBand dataType=\"Byte\" band=\"1\"><SimpleSource>"
+               "<SourceFilename relativeToVRT=\"1\">picture.tif</SourceFilename>"
+               "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>";
     }
 
     /// Around all of a terrain of so many metres, and a little more.

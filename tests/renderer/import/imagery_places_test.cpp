@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where pictures lie on a terrain.
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <utility>
 
@@ -254,13 +253,9 @@ TEST_F(ImageryImport, StretchesAPictureWithoutAPlaceOverTheWholeTerrain) {
 /// As GDAL reads GeoTIFFs that say what a pixel is, and nothing of a CRS.
 TEST_F(ImageryImport, WithAnEngineeringCrsWithoutANameIsInTheTerrains) {
     write(over(290, 290, 10, waves(100)));
-    std::ofstream(folder_.path("unnamed.vrt"))
-        << "<VRTDataset rasterXSize=\"29\" rasterYSize=\"29\">"
-           "<SRS>LOCAL_CS[\"unnamed\",UNIT[\"unknown\",1]]</SRS>"
-           "<GeoTransform>500000,10,0,5000290,0,-10</GeoTransform>"
-           "<VRTRasterBand dataType=\"Byte\" band=\"1\"><SimpleSource>"
-           "<SourceFilename relativeToVRT=\"1\">picture.tif</SourceFilename>"
-           "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>";
+    writeVrt("unnamed.vrt", 29,
+             "<SRS>LOCAL_CS[\"unnamed\",UNIT[\"unknown\",1]]</SRS>"
+             "<GeoTransform>500000,10,0,5000290,0,-10</GeoTransform>");
     const auto file = imported(test::slope(30, 30, 10), {folder_.path("unnamed.vrt")});
     ASSERT_NE(file, nullptr);
     EXPECT_EQ(file->index().imagery->coveredTexels, 29U * 29U);
@@ -268,12 +263,9 @@ TEST_F(ImageryImport, WithAnEngineeringCrsWithoutANameIsInTheTerrains) {
 
 TEST_F(ImageryImport, WithoutAGeotransformSaysHowItIsToBeBroughtToOne) {
     write(over(290, 290, 10, waves(100)));
-    std::ofstream(folder_.path("points.vrt"))
-        << "<VRTDataset rasterXSize=\"37\" rasterYSize=\"37\"><GCPList Projection=\"EPSG:32633\">"
-           "<GCP Id=\"1\" Pixel=\"0\" Line=\"0\" X=\"500000\" Y=\"5000000\"/></GCPList>"
-           "<VRTRasterBand dataType=\"Byte\" band=\"1\"><SimpleSource>"
-           "<SourceFilename relativeToVRT=\"1\">picture.tif</SourceFilename>"
-           "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>";
+    writeVrt("points.vrt", 37,
+             "<GCPList Projection=\"EPSG:32633\">"
+             "<GCP Id=\"1\" Pixel=\"0\" Line=\"0\" X=\"500000\" Y=\"5000000\"/></GCPList>");
     const absl::Status status = importError(test::slope(30, 30, 10), {folder_.path("points.vrt")});
     EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
     EXPECT_THAT(status.ToString(), HasSubstr("ground control points"));
