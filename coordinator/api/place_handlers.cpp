@@ -53,7 +53,8 @@ absl::StatusOr<v1::PickPointResponse> pickPoint(coordinator::FrameSource& frames
     picture.camera = request.camera;
     picture.width = request.viewWidth;
     picture.height = request.viewHeight;
-    picture.shown = {stream::shownFromMessage(message.shown())};
+    ASSIGN_OR_RETURN(coordinator::Shown shown, stream::shownFromMessage(message.shown()));
+    picture.shown = {std::move(shown)};
     using compound::Stereo;
     const Stereo stereo = picture.shown.front().stereo;
     if (stereo == Stereo::SideBySide || stereo == Stereo::TopBottom)

@@ -53,8 +53,9 @@ absl::StatusOr<stream::ViewChange> changeOf(const v1::SessionChange& message) {
         change.look = checked->look;
     if (message.has_underground())
         change.isUnderground = message.underground();
-    if (message.has_shown())
-        change.shown = stream::shownFromMessage(message.shown());
+    if (message.has_shown()) {
+        ASSIGN_OR_RETURN(change.shown, stream::shownFromMessage(message.shown()));
+    }
     return change;
 }
 

@@ -139,6 +139,18 @@ TEST_F(Rest, PicturesTooLargeForOneAnswerComeInParts) {
     EXPECT_EQ(frames_.requests().size(), 1U);
 }
 
+TEST_F(Rest, EyesAndStereoThatAreNotKnownAreRefused) {
+    for (const char* path : {"/image", "/pick"}) {
+        const RestAnswer eye = send("POST", path, R"({"shown":{"eye":9}})");
+        expectProblem(eye, 400, "INVALID_ARGUMENT");
+        EXPECT_EQ(text(eye, "field"), "shown.eye");
+        const RestAnswer stereo = send("POST", path, R"({"shown":{"stereo":-1}})");
+        expectProblem(stereo, 400, "INVALID_ARGUMENT");
+        EXPECT_EQ(text(stereo, "field"), "shown.stereo");
+    }
+    EXPECT_THAT(frames_.requests(), IsEmpty());
+}
+
 TEST_F(Rest, PicksAndProfilesLookThroughWhatIsHidden) {
     ASSERT_EQ(send("POST", "/pick", R"({"x":1,"y":1,"hiddenObjects":[2,0]})").status, 200);
     EXPECT_EQ(frames_.picks().back().hidden.positions, (std::vector<std::int32_t>{0, 2}));
