@@ -188,6 +188,25 @@ TEST_F(Rest, PicksCountTheirRowsFromTheTop) {
     EXPECT_EQ(frames_.picks().back().place.y, 49.5);
 }
 
+TEST_F(Rest, PicksAndProfilesAreNotOfTwoScenes) {
+    const auto pick = [&](bool isReplaced) {
+        frames_.setPick([this, isReplaced](const auto&) {
+            coordinator::Status status = frames_.status();
+            status.scene.objects[0].name = "valley";
+            status.sceneRevision += isReplaced ? 1 : 0;
+            frames_.setStatus(status);
+            return fabric::Picked(fabric::PickedPoint());
+        });
+        return send("POST", "/pick", R"({"x":1,"y":1})");
+    };
+    EXPECT_EQ(text(pick(false), "objectName"), "hill");
+    const RestAnswer refused = pick(true);
+    expectProblem(refused, 409, "ABORTED");
+    EXPECT_EQ(text(refused, "remedy"), "ask again");
+    expectProblem(send("POST", "/profile", R"({"to":{"x":2},"samples":2})"), 409, "ABORTED");
+    EXPECT_EQ(frames_.picks().size(), 4U);
+}
+
 TEST_F(Rest, PicksOutsideThePictureAreToldInTheirOwnTerms) {
     const auto expectRefused = [&](const char* pick, const std::string& field,
                                    const std::string& detail) {
