@@ -23,7 +23,7 @@ public:
           data(folder, std::move(parts.programs), quotas, telemetry),
           scenes(folder, data, quotas, parts.frames, std::move(parts.setScene), parts.state) {
         addStatusHandlers(handlers, parts.frames);
-        addSessionHandlers(handlers, *sessions);
+        addSessionHandlers(handlers, parts.frames, *sessions);
         addStatisticsHandlers(handlers, sessions->statistics(), quotas);
         addTraceHandlers(handlers, telemetry);
         addImageHandlers(handlers, parts.frames, sessions->statistics(), quotas);

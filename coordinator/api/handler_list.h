@@ -30,7 +30,8 @@ void addImageHandlers(Handlers& handlers, coordinator::FrameSource& frames,
                       stream::StatisticsFeed& statistics, const QuotaKeeper& quotas);
 void addPlaceHandlers(Handlers& handlers, coordinator::FrameSource& frames);
 void addConfigurationHandlers(Handlers& handlers, coordinator::ConfigurationAccess& configuration);
-void addSessionHandlers(Handlers& handlers, stream::SessionBook& sessions);
+void addSessionHandlers(Handlers& handlers, coordinator::FrameSource& frames,
+                        stream::SessionBook& sessions);
 void addStatisticsHandlers(Handlers& handlers, stream::StatisticsFeed& statistics,
                            const QuotaKeeper& quotas);
 void addTraceHandlers(Handlers& handlers, observe::SharedTelemetry telemetry);

@@ -114,7 +114,8 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const v1::RenderImageRequest
     ASSIGN_OR_RETURN(const fabric::FrameData frameData, wire::fromMessage(data));
     request.tauPixels = frameData.tauPixels;
     request.shading = frameData.shading;
-    request.shown = {stream::shownFromMessage(message.shown())};
+    ASSIGN_OR_RETURN(coordinator::Shown shown, stream::shownFromMessage(message.shown()));
+    request.shown = {std::move(shown)};
     request.wantsDepth = message.with_depth() || message.format() == v1::IMAGE_FORMAT_DEPTH;
     return request;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -36,6 +37,13 @@ absl::Status checkPlace(const v1::PickPointRequest& message, int width, int heig
     return absl::OkStatus();
 }
 
+/// What was found may be of another scene than `before` has.
+absl::Status checkScene(const coordinator::FrameSource& frames, const coordinator::Status& before) {
+    if (frames.status().sceneRevision == before.sceneRevision)
+        return absl::OkStatus();
+    return absl::AbortedError("the scene was replaced meanwhile; ask again");
+}
+
 absl::StatusOr<v1::PickPointResponse> pickPoint(coordinator::FrameSource& frames,
                                                 const v1::PickPointRequest& message) {
     fabric::PickRequest request;
@@ -53,7 +61,8 @@ absl::StatusOr<v1::PickPointResponse> pickPoint(coordinator::FrameSource& frames
     picture.camera = request.camera;
     picture.width = request.viewWidth;
     picture.height = request.viewHeight;
-    picture.shown = {stream::shownFromMessage(message.shown())};
+    ASSIGN_OR_RETURN(coordinator::Shown shown, stream::shownFromMessage(message.shown()));
+    picture.shown = {std::move(shown)};
     using compound::Stereo;
     const Stereo stereo = picture.shown.front().stereo;
     if (stereo == Stereo::SideBySide || stereo == Stereo::TopBottom)
@@ -65,13 +74,15 @@ absl::StatusOr<v1::PickPointResponse> pickPoint(coordinator::FrameSource& frames
     v1::PickPointResponse response;
     if (!seen)
         return response;
+    const coordinator::Status status = frames.status();
     ASSIGN_OR_RETURN(const fabric::Picked picked, frames.pick(*seen));
+    RETURN_IF_ERROR(checkScene(frames, status));
     if (!picked)
         return response;
     *response.mutable_point() = wire::toMessage(*picked);
-    const fabric::Scene scene = frames.status().scene;
-    if (const auto object = static_cast<std::size_t>(picked->object); object < scene.objects.size())
-        response.set_object_name(stream::sanitised(scene.objects[object].name));
+    const std::vector<fabric::SceneObject>& objects = status.scene.objects;
+    if (const auto object = static_cast<std::size_t>(picked->object); object < objects.size())
+        response.set_object_name(stream::sanitised(objects[object].name));
     return response;
 }
 
@@ -100,6 +111,7 @@ absl::StatusOr<v1::MeasureProfileResponse> measureProfile(coordinator::FrameSour
         if (picked)
             *sample.mutable_point() = wire::toMessage(*picked);
     }
+    RETURN_IF_ERROR(checkScene(frames, status));
     return response;
 }
 

@@ -88,7 +88,14 @@ absl::Status setField(std::string_view name, const std::string& text, Message& m
         return absl::InvalidArgumentError(fmt::format("{} is '{}', which is no {}; see /api",
                                                       field->json_name(), text.substr(0, 64),
                                                       field->cpp_type_name()));
+    const bool isThere = message.GetReflection()->HasField(message, field);
+    const std::string before = isThere ? message.SerializeAsString() : "";
     message.MergeFrom(*made);
+    if (isThere && message.SerializeAsString() != before)
+        return absl::InvalidArgumentError(
+            fmt::format("{} is '{}', and something else in another place of the request; give it "
+                        "once",
+                        field->json_name(), text.substr(0, 64)));
     return absl::OkStatus();
 }
 

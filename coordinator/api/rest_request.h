@@ -14,8 +14,8 @@ class Message;
 namespace eyrie::api {
 
 /// Sets a number, text, switch or enumeration of `message` by its name of JSON or of the schema.
-/// InvalidArgument, naming the field: there is none, it is no such field, or `text` is not of its
-/// kind.
+/// InvalidArgument, naming the field: there is none, it is no such field, `text` is not of its
+/// kind, or `message` has something else there already.
 absl::Status setField(std::string_view name, const std::string& text,
                       google::protobuf::Message& message);
 

@@ -7,6 +7,7 @@
 #include "coordinator/api/handler_list.h"
 #include "coordinator/api/handlers.h"
 #include "coordinator/api/session_message.h"
+#include "coordinator/frame/frame_source.h"
 #include "coordinator/stream/session.h"
 #include "coordinator/stream/session_book.h"
 #include "coordinator/stream/viewer_messages.h"
@@ -53,14 +54,25 @@ absl::StatusOr<stream::ViewChange> changeOf(const v1::SessionChange& message) {
         change.look = checked->look;
     if (message.has_underground())
         change.isUnderground = message.underground();
-    if (message.has_shown())
-        change.shown = stream::shownFromMessage(message.shown());
+    if (message.has_shown()) {
+        ASSIGN_OR_RETURN(change.shown, stream::shownFromMessage(message.shown()));
+    }
     return change;
+}
+
+/// NotFound, naming what there is: a canvas or segment that the configuration has not. Viewers see
+/// nothing by such names.
+absl::Status checkNames(coordinator::FrameSource& frames, const coordinator::Shown& shown) {
+    coordinator::FrameRequest request;
+    request.shown = {shown};
+    const absl::Status status = frames.seen(request).status();
+    return absl::IsNotFound(status) ? status : absl::OkStatus();
 }
 
 }  // namespace
 
-void addSessionHandlers(Handlers& handlers, stream::SessionBook& sessions) {
+void addSessionHandlers(Handlers& handlers, coordinator::FrameSource& frames,
+                        stream::SessionBook& sessions) {
     handlers.add<v1::ListSessionsRequest, v1::ListSessionsResponse>(
         "ListSessions",
         [&sessions](const v1::ListSessionsRequest&,
@@ -81,10 +93,12 @@ void addSessionHandlers(Handlers& handlers, stream::SessionBook& sessions) {
         });
     handlers.add<v1::ChangeSessionRequest, v1::ChangeSessionResponse>(
         "ChangeSession",
-        [&sessions](const v1::ChangeSessionRequest& request,
-                    const Call&) -> absl::StatusOr<v1::ChangeSessionResponse> {
+        [&frames, &sessions](const v1::ChangeSessionRequest& request,
+                             const Call&) -> absl::StatusOr<v1::ChangeSessionResponse> {
             ASSIGN_OR_RETURN(const SharedSession session, sessionOf(sessions, request.id()));
             ASSIGN_OR_RETURN(const stream::ViewChange change, changeOf(request.change()));
+            if (change.shown)
+                RETURN_IF_ERROR(checkNames(frames, *change.shown));
             RETURN_IF_ERROR(session->change(change));
             v1::ChangeSessionResponse response;
             *response.mutable_session() = sessionMessage(*session);

@@ -214,6 +214,7 @@ Status FramePipeline::status() const {
     const Crew::State state = crew_.state();
     status.scene = *state.scene;
     status.sceneInfo = state.sceneInfo;
+    status.sceneRevision = state.revision;
     status.canvases = planner_.canvases();
     status.problem = problem(state);
     if (status.problem.empty())

@@ -2,6 +2,9 @@
 #include "coordinator/stream/view_message.h"
 
 #include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "eyrie/v1/frame.pb.h"
 #include "eyrie/v1/look.pb.h"
@@ -11,9 +14,17 @@
 
 namespace eyrie::stream {
 
-coordinator::Shown shownFromMessage(const v1::ShownPicture& message) {
+absl::StatusOr<coordinator::Shown> shownFromMessage(const v1::ShownPicture& message) {
     using compound::Eye;
     using compound::Stereo;
+    const auto unknown = [](const char* field, int value) {
+        return absl::InvalidArgumentError(
+            fmt::format("shown.{} is {}, which this version does not know", field, value));
+    };
+    if (!v1::ShownEye_IsValid(message.eye()))
+        return unknown("eye", message.eye());
+    if (!v1::ShownStereo_IsValid(message.stereo()))
+        return unknown("stereo", message.stereo());
     coordinator::Shown shown;
     shown.canvas = message.canvas();
     shown.segment = message.segment();
@@ -70,7 +81,8 @@ absl::StatusOr<ViewRequest> viewFromMessage(const v1::ViewRequest& message) {
         RETURN_IF_ERROR(fabric::validateBudgetMilliseconds(message.budget_milliseconds()));
         view.frame.budgetMilliseconds = message.budget_milliseconds();
     }
-    view.frame.shown = {shownFromMessage(message.shown())};
+    ASSIGN_OR_RETURN(coordinator::Shown shown, shownFromMessage(message.shown()));
+    view.frame.shown = {std::move(shown)};
     view.frame.completeness = fabric::Completeness::Interactive;
     view.frame.width = std::clamp(message.width(), kMinPictureSide, kMaxPictureSide);
     view.frame.height = std::clamp(message.height(), kMinPictureSide, kMaxPictureSide);

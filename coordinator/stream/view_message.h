@@ -24,8 +24,8 @@ struct ViewRequest {
 inline constexpr int kMinPictureSide = 16;
 inline constexpr int kMaxPictureSide = 4096;
 
-/// What this version does not know is as if it were not said.
-coordinator::Shown shownFromMessage(const v1::ShownPicture& message);
+/// Errors: InvalidArgument, naming what this version does not know.
+absl::StatusOr<coordinator::Shown> shownFromMessage(const v1::ShownPicture& message);
 
 /// Sizes are clamped to kMinPictureSide..kMaxPictureSide. Errors: InvalidArgument (a view that
 /// cannot be drawn; the message tells the user why).

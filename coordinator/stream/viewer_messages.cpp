@@ -122,8 +122,9 @@ absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes) {
             return ackFromMessage(message.frame_ack());
         case v1::ViewerRequest::kScreen: {
             OwnScreen screen;
-            if (message.screen().has_shown())
-                screen.shown = shownFromMessage(message.screen().shown());
+            if (message.screen().has_shown()) {
+                ASSIGN_OR_RETURN(screen.shown, shownFromMessage(message.screen().shown()));
+            }
             return screen;
         }
         case v1::ViewerRequest::kReady:

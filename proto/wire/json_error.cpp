@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <google/protobuf/descriptor.h>
 
 namespace eyrie::wire {
 namespace {
@@ -20,7 +21,7 @@ constexpr std::string_view kNoMessage = "Root element must be a message.";
 constexpr std::string_view kNoObject = "Starting an object on a scalar field";
 constexpr std::string_view kOneOf = "Cannot set '";
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kTypes = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kTypes = {{
     {"TYPE_DOUBLE", "a number"},
     {"TYPE_FLOAT", "a number"},
     {"TYPE_INT32", "a whole number"},
@@ -31,7 +32,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kTypes =
     {"TYPE_BOOL", "true or false"},
     {"TYPE_STRING", "text in quotes"},
     {"TYPE_BYTES", "base64 in quotes"},
-    {"TYPE_ENUM", "one of its names in quotes"},
     {"type.googleapis.com", "an object in braces"},
 }};
 
@@ -51,10 +51,25 @@ std::string below(const std::string& path, std::string_view name) {
         fmt::format("{}{}{}", path, path.empty() ? "" : ".", name.substr(0, kLongestQuote)));
 }
 
-std::string_view expected(std::string_view type) {
+/// "one of SHADING_SMOOTH, SHADING_FLAT in quotes", but for the value that stands for none; empty
+/// where the type is no enum.
+std::string namesOf(std::string_view type) {
+    const auto* const found =
+        google::protobuf::DescriptorPool::generated_pool()->FindEnumTypeByName(
+            std::string(type.substr(type.rfind('/') + 1)));
+    std::string names;
+    for (int i = 0; found != nullptr && i < found->value_count(); ++i)
+        if (const auto& value = *found->value(i); value.number() != 0)
+            names += fmt::format("{}{}", names.empty() ? "one of " : ", ", value.name());
+    return names.empty() ? "" : names + " in quotes";
+}
+
+std::string expected(std::string_view type) {
+    if (std::string names = namesOf(type); !names.empty())
+        return names;
     const auto known = std::ranges::find_if(
         kTypes, [&](const auto& each) { return type.starts_with(each.first); });
-    return known == kTypes.end() ? "something else" : known->second;
+    return std::string(known == kTypes.end() ? "something else" : known->second);
 }
 
 JsonError invalid(const std::string& path, std::string_view words) {

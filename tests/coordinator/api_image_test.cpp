@@ -139,6 +139,18 @@ TEST_F(Rest, PicturesTooLargeForOneAnswerComeInParts) {
     EXPECT_EQ(frames_.requests().size(), 1U);
 }
 
+TEST_F(Rest, EyesAndStereoThatAreNotKnownAreRefused) {
+    for (const char* path : {"/image", "/pick"}) {
+        const RestAnswer eye = send("POST", path, R"({"shown":{"eye":9}})");
+        expectProblem(eye, 400, "INVALID_ARGUMENT");
+        EXPECT_EQ(text(eye, "field"), "shown.eye");
+        const RestAnswer stereo = send("POST", path, R"({"shown":{"stereo":-1}})");
+        expectProblem(stereo, 400, "INVALID_ARGUMENT");
+        EXPECT_EQ(text(stereo, "field"), "shown.stereo");
+    }
+    EXPECT_THAT(frames_.requests(), IsEmpty());
+}
+
 TEST_F(Rest, PicksAndProfilesLookThroughWhatIsHidden) {
     ASSERT_EQ(send("POST", "/pick", R"({"x":1,"y":1,"hiddenObjects":[2,0]})").status, 200);
     EXPECT_EQ(frames_.picks().back().hidden.positions, (std::vector<std::int32_t>{0, 2}));
@@ -174,6 +186,25 @@ TEST_F(Rest, PicksCountTheirRowsFromTheTop) {
     ASSERT_EQ(answer.status, 200) << *answer.body;
     EXPECT_EQ(frames_.picks().back().place.x, 10.5);
     EXPECT_EQ(frames_.picks().back().place.y, 49.5);
+}
+
+TEST_F(Rest, PicksAndProfilesAreNotOfTwoScenes) {
+    const auto pick = [&](bool isReplaced) {
+        frames_.setPick([this, isReplaced](const auto&) {
+            coordinator::Status status = frames_.status();
+            status.scene.objects[0].name = "valley";
+            status.sceneRevision += isReplaced ? 1 : 0;
+            frames_.setStatus(status);
+            return fabric::Picked(fabric::PickedPoint());
+        });
+        return send("POST", "/pick", R"({"x":1,"y":1})");
+    };
+    EXPECT_EQ(text(pick(false), "objectName"), "hill");
+    const RestAnswer refused = pick(true);
+    expectProblem(refused, 409, "ABORTED");
+    EXPECT_EQ(text(refused, "remedy"), "ask again");
+    expectProblem(send("POST", "/profile", R"({"to":{"x":2},"samples":2})"), 409, "ABORTED");
+    EXPECT_EQ(frames_.picks().size(), 4U);
 }
 
 TEST_F(Rest, PicksOutsideThePictureAreToldInTheirOwnTerms) {

@@ -91,6 +91,22 @@ TEST_F(ApiSessions, AreNotMovedWhereNothingCanBeSeen) {
     EXPECT_FALSE(api_->sessions()->find("tour")->facts().view);
 }
 
+TEST_F(ApiSessions, AreNotShownWhatTheConfigurationHasNot) {
+    frames_.setSeen([](const coordinator::FrameRequest& request) {
+        return request.shown.front().canvas == "nope"
+                   ? absl::StatusOr<fabric::SeenAreas>(
+                         absl::NotFoundError("there is no canvas 'nope'; there is 'wall'"))
+                   : absl::FailedPreconditionError("there was no renderer yet");
+    });
+    stream::Sessions sessions(frames_, stream::moving(1), api_->sessions());
+    Browser leader(sessions, {"tour"});
+    leader.look(3);
+    const RestAnswer wrong = ask("PATCH", "/sessions/tour", R"({"shown":{"canvas":"nope"}})");
+    EXPECT_EQ(wrong.status, 404);
+    EXPECT_THAT(*wrong.body, HasSubstr("there is 'wall'"));
+    EXPECT_EQ(ask("PATCH", "/sessions/tour", R"({"shown":{"canvas":"wall"}})").status, 200);
+}
+
 TEST_F(ApiSessions, AreClosedByPrograms) {
     stream::Sessions sessions(frames_, stream::moving(1), api_->sessions());
     Browser viewer(sessions, {"tour"});

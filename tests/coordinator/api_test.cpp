@@ -100,6 +100,20 @@ TEST_F(Rest, RefusesWhatItDoesNotKnow) {
     EXPECT_THAT(frames_.requests(), IsEmpty());
 }
 
+TEST_F(Rest, RefusesAFieldThatIsGivenTwiceAndDiffers) {
+    const auto expectRefused = [&](const RestAnswer& refused, const std::string& field) {
+        expectProblem(refused, 400, "INVALID_ARGUMENT");
+        EXPECT_EQ(text(refused, "field"), field);
+        EXPECT_EQ(text(refused, "remedy"), "give it once");
+    };
+    expectRefused(send("POST", "/image?width=64", R"({"width":32})"), "width");
+    expectRefused(get("/image?jpegQuality=5&jpeg_quality=6"), "jpegQuality");
+    expectRefused(send("PATCH", "/sessions/a?id=b", R"({"tauPixels":2})"), "id");
+    expectRefused(send("POST", "/operations/a/cancel", R"({"id":"b"})"), "id");
+    EXPECT_THAT(frames_.requests(), IsEmpty());
+    EXPECT_EQ(send("POST", "/image?width=64", R"({"width":64})").status, 200);
+}
+
 TEST_F(Rest, RefusesPathsAndQueriesThatAreNotUtf8AndLogsNothingOfThem) {
     testing::internal::CaptureStderr();
     for (const char* target : {"/flights/%ff%fe", "/image?width=%c0%80"}) {

@@ -69,6 +69,21 @@ TEST(SceneJson, TwoFilesOfAnObjectAreAnErrorThatNamesTheSecond) {
                 testing::HasSubstr("objects[0].mesh is beside another that stands for the same"));
 }
 
+TEST(LookJson, AWrongNameIsAnErrorThatNamesTheRightOnes) {
+    const auto refusal = [](const char* text) {
+        return std::string(lookFromJson(text, "l.json").status().message());
+    };
+    constexpr auto kRight =
+        "it must be one of SHADING_SMOOTH, SHADING_FLAT, SHADING_WIREFRAME, SHADING_GOURAUD in "
+        "quotes";
+    EXPECT_THAT(refusal(R"({"objects":[{"shading":"flat"}]})"),
+                testing::AllOf(testing::HasSubstr(R"(objects[0].shading is "flat"; )"),
+                               testing::EndsWith(kRight)));
+    EXPECT_THAT(refusal(R"({"objects":[{"shading":2.5}]})"), testing::EndsWith(kRight));
+    EXPECT_THAT(refusal(R"({"contours":"fine"})"),
+                testing::EndsWith("contours is \"fine\"; it must be an object in braces"));
+}
+
 TEST(FlightJson, TheFormOfTheDesignIsRead) {
     const fabric::Flight flight =
         flightFromJson(R"({"keys":[{"seconds":0,"camera":{"eye":[0,0,0],"target":[1,0,0]}},
