@@ -30,7 +30,7 @@
 #include "cli/stop_signal.h"
 #include "cli/text_file.h"
 #include "cli/values.h"
-#include "coordinator/frame/frame_source.h"
+#include "coordinator/frame/problem.h"
 #include "coordinator/stream/home_camera.h"
 #include "fabric/frame_data.h"
 #include "fabric/status.h"
@@ -205,9 +205,13 @@ absl::Status checkOutputs(const Options& options) {
 /// Where no camera is named: that of a viewer who has just come, or for heights as they are shown.
 void lookAtAll(const PictureSource& pictures, const Options& options,
                coordinator::FrameRequest& request) {
-    if (options.camera.empty())
-        request.camera = stream::homeCamera(
-            stream::exaggeratedBounds(pictures.sceneInfo(), request.look.exaggeration));
+    if (!options.camera.empty())
+        return;
+    request.camera = stream::homeCamera(
+        stream::exaggeratedBounds(pictures.sceneInfo(), request.look.exaggeration));
+    const std::string note = coordinator::noteOfSize(pictures.sceneInfo().bounds);
+    if (!note.empty() && !options.pictures.quiet)
+        tell(fmt::format("{}: {}", options.scene, note));
 }
 
 absl::Status render(const Options& options) {

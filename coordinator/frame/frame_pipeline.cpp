@@ -219,6 +219,8 @@ Status FramePipeline::status() const {
     status.problem = problem(state);
     if (status.problem.empty())
         status.note = noteOf(static_cast<std::size_t>(state.ready), planner_.renderersWanted());
+    if (status.problem.empty() && status.note.empty())
+        status.note = noteOfSize(state.sceneInfo.bounds);
     return status;
 }
 

@@ -2,8 +2,17 @@
 #include "coordinator/frame/problem.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "fabric/frustum.h"
 
 namespace eyrie::coordinator {
+namespace {
+
+/// Of a ball that fills a field of view of 45 degrees the nearest is .8 of its size away.
+constexpr double kLeastSceneMetres = 2 * fabric::kNearMetres;
+
+}  // namespace
 
 std::string problemOf(const Situation& situation) {
     if (situation.sceneIsEmpty)
@@ -24,6 +33,16 @@ std::string noteOf(std::size_t ready, std::size_t wanted) {
         "{} of the {} renderers that the configuration wants {} ready; all is drawn, by fewer, and "
         "so later",
         ready, wanted, ready == 1 ? "is" : "are");
+}
+
+std::string noteOfSize(const fabric::Box& bounds) {
+    const double size = bounds.isEmpty() ? 0 : glm::length(bounds.size());
+    if (!(size > 0 && size < kLeastSceneMetres))
+        return {};
+    return fmt::format(
+        "the scene is {:.2g} mm across, and nothing is drawn that is nearer to the eye than {:g} "
+        "mm: scale it up, with transform.scale in a scene file",
+        size * 1000, fabric::kNearMetres * 1000);
 }
 
 }  // namespace eyrie::coordinator

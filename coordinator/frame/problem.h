@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <string>
 
+#include "fabric/box.h"
+
 namespace eyrie::coordinator {
 
 /// What decides whether there is a picture.
@@ -21,5 +23,9 @@ std::string problemOf(const Situation& situation);
 /// What is missing though there is a picture, for a person to read: renderers that are ready, of
 /// those that a configuration has pipes for; empty where nothing is.
 std::string noteOf(std::size_t ready, std::size_t wanted);
+
+/// Of a scene so small that the near plane (fabric::kNearMetres) takes away of it where the eye
+/// sees it whole; empty of others, and of an empty one.
+std::string noteOfSize(const fabric::Box& bounds);
 
 }  // namespace eyrie::coordinator

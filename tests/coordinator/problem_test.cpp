@@ -34,6 +34,14 @@ TEST(Note, CountsTheRenderersThatAreMissing) {
     EXPECT_EQ(noteOf(5, 4), "");
 }
 
+TEST(Note, SaysThatASceneIsTooSmallToBeSeenWhole) {
+    const fabric::Box small{{10, 0, 0}, {10.0003, 0.0004, 0}};
+    EXPECT_THAT(noteOfSize(small), testing::StartsWith("the scene is 0.5 mm across"));
+    EXPECT_EQ(noteOfSize({{0, 0, 0}, {.003, 0, 0}}), "");
+    EXPECT_EQ(noteOfSize({{1, 1, 1}, {1, 1, 1}}), "") << "a point is no matter of scale";
+    EXPECT_EQ(noteOfSize({}), "");
+}
+
 TEST(Note, AFrameOfWhichAPartShowsNothingIsNoEmptyOne) {
     RenderedFrame frame;
     frame.pictures = {{0, std::vector<fabric::SeenArea>()}, {0, std::nullopt}};
