@@ -236,8 +236,16 @@ describe("numbers", () => {
     expect([0.25, 1, 12.34, Infinity].map(pixels)).toEqual([
       "0.25 px",
       "1.00 px",
-      "12.3 px",
+      "12.4 px",
       "∞ px",
+    ]);
+    expect([0, 0.001, 0.931, 1 + 1e-7, 9.999, 9.9901].map(pixels)).toEqual([
+      "0.00 px",
+      "0.01 px",
+      "0.94 px",
+      "1.00 px",
+      "10.0 px",
+      "10.0 px",
     ]);
     expect([NaN, 4.24, 33.3].map(milliseconds)).toEqual(["–", "4.2 ms", "33 ms"]);
     expect(triangleText(412_000, 1_740_000)).toBe("412 k of 1.74 M");
@@ -249,8 +257,9 @@ describe("normals drawn", () => {
   it("are said to be off where meshes are not in full detail", () => {
     expect(normalsText(null)).toBeNull();
     expect(normalsText(numbers)).toBeNull();
-    const off = { ...numbers, normalMeanDegrees: 7.46, normalDegrees: 180 };
+    const off = { ...numbers, normalMeanDegrees: 7.42, normalDegrees: 180 };
     expect(normalsText(off)?.value).toBe("7.5° on average");
+    expect(normalsText({ ...off, normalDegrees: 27.02 })?.title).toContain("at most 28° anywhere");
     expect(normalsText(off)?.title).toContain("at most 180° anywhere");
   });
 });
