@@ -137,6 +137,8 @@ describe("the message in place of a picture", () => {
   it("gives the command that starts a renderer", () => {
     const situation = { connection: connected, session: session(0), hasPicture: false };
     expect(messageFor(situation)?.command).toContain("eyrie renderer");
+    const told = { ...situation, session: session(0, 0, "no renderer is connected; wait") };
+    expect(messageFor(told)?.command).toBeUndefined(); // the server says what to do
   });
 
   it("tells a browser that cannot draw which can, whatever the connection does", () => {
