@@ -21,6 +21,7 @@ absl::StatusOr<std::unique_ptr<LocalFarm>> LocalFarm::start(coordinator::Coordin
                                                             const DrawingOptions& drawing) {
     RETURN_IF_ERROR(rendererOptionsOf(drawing).status());  // said here, not by each of them
     ASSIGN_OR_RETURN(TemporaryFolder folder, TemporaryFolder::create());
+    options.startsRenderers = true;
     options.grpcAddresses.insert(options.grpcAddresses.begin(), folder.socket("coordinator"));
     ASSIGN_OR_RETURN(auto coordinator, coordinator::Coordinator::start(options));
     return std::unique_ptr<LocalFarm>(

@@ -95,7 +95,9 @@ private:
                 state->configuration(),
                 [state](const KeptConfiguration& configuration) { state->keep(configuration); }};
         pipeline.howToJoin =
-            fmt::format("eyrie renderer --coordinator {}", door.addresses().back());
+            options.startsRenderers
+                ? ""
+                : fmt::format("eyrie renderer --coordinator {}", door.addresses().back());
         return pipeline;
     }
 

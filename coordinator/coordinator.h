@@ -39,6 +39,8 @@ struct CoordinatorOptions {
     api::Programs programs = {};  ///< what programs may have done by other processes
     api::Quotas quotas = {};      ///< what they may ask for
     bool grpcReflection = false;  ///< tools may ask over gRPC which calls there are
+    /// Whoever runs it starts renderers, and starts them again: nobody is told to start one.
+    bool startsRenderers = false;
     /// Of .eyt and .eym files that the renderers can read. Without objects: setScene() follows.
     fabric::Scene scene = {};
 };

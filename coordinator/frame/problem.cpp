@@ -23,6 +23,9 @@ std::string problemOf(const Situation& situation) {
         return "opening the scene…";
     if (!situation.openError.empty())
         return fmt::format("the scene cannot be opened: {}", situation.openError);
+    if (situation.howToJoin.empty())
+        return "no renderer is connected; this server starts those again that end, and its log "
+               "says why they do";
     return fmt::format("no renderer is connected; start one with `{}`", situation.howToJoin);
 }
 

@@ -14,7 +14,7 @@ struct Situation {
     int opening = 0;  ///< renderers that are opening it
     bool sceneIsEmpty = false;
     std::string openError;  ///< of a renderer that could not open it
-    std::string howToJoin;  ///< the command that starts a renderer
+    std::string howToJoin;  ///< the command that starts a renderer; empty: they are started here
 };
 
 /// Why there is no picture, for a person to read, with what to do; empty while there is one.

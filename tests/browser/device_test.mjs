@@ -66,4 +66,43 @@ await run("device_test", async (browser, started) => {
     }),
   );
   check(isWithin, "on the narrowest screens all buttons and values are within it");
+
+  // The longest that the chip says.
+  await page.locator("#status .chip-text").evaluate((text) => {
+    text.textContent = "Waiting for a frame";
+  });
+  const crowded = [];
+  for (let width = 320; width <= 1000; width += 20) {
+    await page.setViewportSize({ width, height: 568 });
+    const isFree = await page.evaluate(() => {
+      const chip = document.querySelector("#status").getBoundingClientRect();
+      const tools = document.querySelector(".tools").getBoundingClientRect();
+      const text = document.querySelector("#status .chip-text");
+      const isWhole = text.scrollWidth <= text.clientWidth;
+      const isOutside = text.getBoundingClientRect().right > chip.right;
+      const isUnseen = getComputedStyle(text).clipPath !== "none";
+      const holds = isUnseen || (isWhole && !isOutside);
+      return chip.right <= tools.left && tools.right <= window.innerWidth && holds;
+    });
+    if (!isFree) crowded.push(width);
+  }
+  check(crowded.length === 0, `the bar has room for all of it at any width ${crowded.join()}`);
+
+  await page.keyboard.press("b");
+  const overlaps = [];
+  for (const width of [320, 480, 701, 800, 1100]) {
+    await page.setViewportSize({ width, height: 568 });
+    const isOver = await page.evaluate(() => {
+      const [recording, ...others] = ["#recording", "#readout", "#pick"].map((name) =>
+        document.querySelector(name).getBoundingClientRect(),
+      );
+      return others.some(
+        ({ left, right, top, bottom }) =>
+          Math.min(right, recording.right) > Math.max(left, recording.left) &&
+          Math.min(bottom, recording.bottom) > Math.max(top, recording.top),
+      );
+    });
+    if (isOver) overlaps.push(width);
+  }
+  check(overlaps.length === 0, `nor does what is said on the picture overlap ${overlaps.join()}`);
 });

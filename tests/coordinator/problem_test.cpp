@@ -13,6 +13,12 @@ TEST(Problem, WithoutARendererItSaysHowToStartOne) {
                 testing::HasSubstr("`eyrie renderer --coordinator h:9`"));
 }
 
+TEST(Problem, NobodyIsToldToStartOneWhereTheyStartByThemselves) {
+    const std::string problem = problemOf({0, 0, false, "", ""});
+    EXPECT_THAT(problem, testing::HasSubstr("starts those again that end"));
+    EXPECT_THAT(problem, testing::Not(testing::HasSubstr("eyrie renderer")));
+}
+
 TEST(Problem, AnEmptySceneIsNamed) {
     EXPECT_THAT(problemOf({2, 0, true, "", ""}), testing::HasSubstr("scene is empty"));
 }

@@ -6,6 +6,7 @@ import { standardCamera, standardViews } from "./camera/standard";
 import type { MeasuredPoint } from "./measure";
 import { mapArea, mapLength, pathLength, rise } from "./measure";
 import { axis, bandOf, logAxis } from "./panel/chart";
+import { areaWithError, lengthWithError } from "./panel/format";
 import { overlayRuns, rowsOf } from "./panel/measure";
 import { errorDrawing, speedErrorDrawing, stagesDrawing } from "./panel/plots";
 import { chartOf, heightAlong } from "./profile";
@@ -121,13 +122,38 @@ describe("the card of measures", () => {
   it("says how far off each number may be", () => {
     const texts = rowsOf(points, 1).map(([name, value]) => `${name}: ${value}`);
     expect(texts).toEqual([
-      "Length: 90 m ± 1.25 m",
-      "On the map: 90 m ± 1.25 m",
-      "Rise: 0 m ± 750 mm",
-      "Area: 600 m² ± 20.16 m²",
+      "Length: 90.0 m ± 1.25 m",
+      "On the map: 90.0 m ± 1.25 m",
+      "Rise: 0 mm ± 750 mm",
+      "Area: 600 m² ± 20.2 m²",
     ]);
     expect(rowsOf(points.slice(0, 1), 1)).toEqual([]);
     expect(rowsOf(points, 2)[0]?.[2]).toContain("as drawn with heights × 2");
+  });
+
+  it("says that of what is written", () => {
+    const units: Record<string, number> = { km: 1e3, m: 1, mm: 1e-3, µm: 1e-6, nm: 1e-9 };
+    const metresOf = (text: string): number => {
+      const [digits = "", unit = ""] = text.split(" ");
+      const size = unit.endsWith("²") ? (units[unit.slice(0, -1)] ?? NaN) ** 2 : units[unit];
+      return Number(digits.replace("−", "-")) * (size ?? NaN);
+    };
+    const random = randomNumbers(2);
+    for (let trial = 0; trial < 2000; ++trial) {
+      const value = 10 ** (14 * random() - 6) * (random() < 0.2 ? -1 : 1);
+      const error = Math.abs(value) * 10 ** (-7 * random());
+      const texts = [lengthWithError(value, error), areaWithError(Math.abs(value), error)];
+      texts.forEach((text, i) => {
+        const [written = NaN, off = NaN] = text.split(" ± ").map(metresOf);
+        const lost = Math.abs(written - (i === 0 ? value : Math.abs(value)));
+        expect(off * (1 + 1e-9)).toBeGreaterThanOrEqual(error + lost);
+        expect(off).toBeLessThan(1.08 * error + 1e-8); // nor much more
+      });
+    }
+    expect(lengthWithError(0.0478125, 2.06e-7)).toBe("47.81250 mm ± 206 nm");
+    expect(lengthWithError(-1677.2, 1.75)).toBe("−1.6772 km ± 1.75 m");
+    expect(lengthWithError(0, 0)).toBe("0.000000 m ± 0 nm");
+    expect(areaWithError(0.0002612, 1.996e-9)).toBe("261.2000 mm² ± 2000 µm²");
   });
 
   it("marks points in the picture, and parts the line behind the eye", () => {

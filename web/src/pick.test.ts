@@ -5,7 +5,7 @@ import { add, axesOf, project } from "./camera/camera";
 import type { Camera } from "./camera/camera";
 import { clickAfter } from "./camera/controls";
 import { lookAt } from "./camera/orbit";
-import { coordinate, lengthText } from "./panel/format";
+import { coordinate, lengthAtMost, lengthText } from "./panel/format";
 import { markOf, textOf } from "./panel/pick";
 import { appearance, coverOf, pickOf, placeOf, seenPlace } from "./pick";
 import { SightSchema } from "./protocol/gen/eyrie/v1/frame_pb";
@@ -149,8 +149,8 @@ describe("an answer", () => {
     const { title, rows } = textOf(pickOf(answer, ["valley", "hill"], 1));
     expect(title).toBe("hill");
     expect(rows.map(([name, value]) => `${name}: ${value}`)).toEqual([
-      "Elevation: 1234.57 m",
-      "x, y, z: 1.00, 2.00, 3.00",
+      "Elevation: 1234.567 m",
+      "x, y, z: 1.000, 2.000, 3.000",
       "Off by: 20 mm at most",
       "Distance: 12 m",
       "Along the view: −500 mm to +2 m",
@@ -198,8 +198,29 @@ describe("lengths and coordinates", () => {
     expect(lengthText(999.6)).toBe("1 km");
     expect(lengthText(-3)).toBe("−3 m");
     expect(lengthText(0)).toBe("0 nm");
-    expect(coordinate(1234.56789, 0.3)).toBe("1234.6");
+    expect(coordinate(1234.56789, 0.3)).toBe("1234.57");
     expect(coordinate(1234.56789, 30)).toBe("1235");
-    expect(coordinate(1.23456789, 1e-12)).toBe("1.234568");
+    expect(coordinate(1.23456789, 1e-8)).toBe("1.234567890");
+  });
+
+  it("are off by what is said of them, as they are written", () => {
+    expect(lengthAtMost(0.4998)).toBe("500 mm");
+    expect(lengthAtMost(0.50001)).toBe("501 mm");
+    const near = pickOf(answer, [], 1);
+    if (near.kind !== "point") throw new Error("no point");
+    const rows = textOf({
+      ...near,
+      position: [-0.0107003449, 0.00469949, 1.5],
+      elevation: undefined,
+      error: 5.15e-8,
+      nearest: 12 - 0.30021,
+      farthest: 12 + 0.40011,
+    }).rows.map(([, value]) => value);
+    expect(rows).toEqual([
+      "-0.010700345, 0.004699490, 1.500000000",
+      "51.6 nm at most",
+      "12 m",
+      "−301 mm to +401 mm",
+    ]);
   });
 });

@@ -11,22 +11,24 @@ import type { State } from "../state";
 import type { Viewer } from "../viewer";
 import { axis, chartHeight, chartWidth, pathOf, svg } from "./chart";
 import { byId, make, setText } from "./element";
-import { coordinate, lengthText, times } from "./format";
+import {
+  areaWithError,
+  coordinate,
+  digitsOf,
+  lengthAtMost,
+  lengthText,
+  lengthWithError,
+  times,
+} from "./format";
 import { onKeys } from "./keys";
-
-export function areaText(squareMetres: number): string {
-  const [unit, name] = squareMetres >= 999_500 ? [1e6, "km²"] : [1, "m²"];
-  return `${Number((squareMetres / unit).toPrecision(4))} ${name}`;
-}
-
-const withError = ({ value, error }: Measure, text: (value: number) => string): string =>
-  `${text(value)} ± ${text(error)}`;
 
 /** In the unit that people would use, and 0 in metres. */
 const longText = (value: number): string => {
   if (Math.abs(value) >= 1000) return `${Number((value / 1000).toPrecision(5))} km`;
   return Math.abs(value) < 1e-9 ? "0 m" : lengthText(value);
 };
+
+const lengthOf = ({ value, error }: Measure): string => lengthWithError(value, error);
 
 /** Name, value and what it means, of so many points. */
 export function rowsOf(
@@ -36,12 +38,14 @@ export function rowsOf(
   if (points.length < 2) return [];
   const drawn = exaggeration === 1 ? "" : `, as drawn with heights ${times(exaggeration)}`;
   const rows: (readonly [string, string, string])[] = [
-    ["Length", withError(pathLength(points), longText), `Straight from point to point${drawn}`],
-    ["On the map", withError(mapLength(points), longText), "The same without heights"],
-    ["Rise", withError(rise(points), longText), `From the first point to the last${drawn}`],
+    ["Length", lengthOf(pathLength(points)), `Straight from point to point${drawn}`],
+    ["On the map", lengthOf(mapLength(points)), "The same without heights"],
+    ["Rise", lengthOf(rise(points)), `From the first point to the last${drawn}`],
   ];
-  if (points.length > 2)
-    rows.push(["Area", withError(mapArea(points), areaText), "Of the closed line, on the map"]);
+  if (points.length > 2) {
+    const { value, error } = mapArea(points);
+    rows.push(["Area", areaWithError(value, error), "Of the closed line, on the map"]);
+  }
   return rows;
 }
 
@@ -119,7 +123,8 @@ function profileChart(profile: Profile): HTMLElement {
   slider.addEventListener("input", read);
   read();
   const ends = make("figcaption", "note");
-  ends.textContent = `${digits(chart.lowest)} to ${digits(chart.highest)}, off by ${lengthText(chart.error)} at most`;
+  const off = chart.error + 10 ** -digitsOf(chart.error) / 2; // as they are written
+  ends.textContent = `${digits(chart.lowest)} to ${digits(chart.highest)}, off by ${lengthAtMost(off)} at most`;
   figure.append(image, slider, reading, ends);
   return figure;
 }

@@ -69,12 +69,12 @@ export function messageFor(situation: Situation): Message | null {
   if (connection.kind === "closed") return { title: "This session was closed", text: closedText };
   if (connection.kind === "connecting" || session === null)
     return { title: "Connecting", text: "Asking the server for the scene." };
+  if (!hasRenderer(session) && session.problem !== "")
+    return { title: "No renderer is running", text: sentence(session.problem) };
   if (!hasRenderer(session))
     return {
       title: "No renderer is running",
-      text:
-        sentence(session.problem) ||
-        "The coordinator is up, but nothing draws for it. Start a renderer that registers there:",
+      text: "The coordinator is up, but nothing draws for it. Start a renderer that registers there:",
       command: startRenderer,
     };
   if (session.problem !== "")

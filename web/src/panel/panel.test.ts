@@ -137,6 +137,8 @@ describe("the message in place of a picture", () => {
   it("gives the command that starts a renderer", () => {
     const situation = { connection: connected, session: session(0), hasPicture: false };
     expect(messageFor(situation)?.command).toContain("eyrie renderer");
+    const told = { ...situation, session: session(0, 0, "no renderer is connected; wait") };
+    expect(messageFor(told)?.command).toBeUndefined(); // the server says what to do
   });
 
   it("tells a browser that cannot draw which can, whatever the connection does", () => {
@@ -236,8 +238,16 @@ describe("numbers", () => {
     expect([0.25, 1, 12.34, Infinity].map(pixels)).toEqual([
       "0.25 px",
       "1.00 px",
-      "12.3 px",
+      "12.4 px",
       "∞ px",
+    ]);
+    expect([0, 0.001, 0.931, 1 + 1e-7, 9.999, 9.9901].map(pixels)).toEqual([
+      "0.00 px",
+      "0.01 px",
+      "0.94 px",
+      "1.00 px",
+      "10.0 px",
+      "10.0 px",
     ]);
     expect([NaN, 4.24, 33.3].map(milliseconds)).toEqual(["–", "4.2 ms", "33 ms"]);
     expect(triangleText(412_000, 1_740_000)).toBe("412 k of 1.74 M");
@@ -249,8 +259,9 @@ describe("normals drawn", () => {
   it("are said to be off where meshes are not in full detail", () => {
     expect(normalsText(null)).toBeNull();
     expect(normalsText(numbers)).toBeNull();
-    const off = { ...numbers, normalMeanDegrees: 7.46, normalDegrees: 180 };
+    const off = { ...numbers, normalMeanDegrees: 7.42, normalDegrees: 180 };
     expect(normalsText(off)?.value).toBe("7.5° on average");
+    expect(normalsText({ ...off, normalDegrees: 27.02 })?.title).toContain("at most 28° anywhere");
     expect(normalsText(off)?.title).toContain("at most 180° anywhere");
   });
 });

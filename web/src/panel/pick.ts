@@ -4,7 +4,7 @@ import { appearance } from "../pick";
 import type { Shown } from "../protocol/messages";
 import type { Pick, PickedPoint, State } from "../state";
 import { byId, make, setText } from "./element";
-import { coordinate, lengthText } from "./format";
+import { coordinate, lengthAtMost, lengthText, lostOf, roundedUp } from "./format";
 
 export interface PickText {
   title: string;
@@ -12,10 +12,17 @@ export interface PickText {
   rows: readonly (readonly [string, string, string])[];
 }
 
+/** How far the source's surface may be from the point as it is written. */
+function offAsWritten({ position, elevation, error }: PickedPoint): number {
+  const lost = (value: number): number => lostOf(coordinate(value, error), value);
+  return error + Math.max(Math.hypot(...position.map(lost)), lost(elevation ?? 0));
+}
+
 function rowsOf(point: PickedPoint): PickText["rows"] {
   const [x, y, z] = point.position.map((value) => coordinate(value, point.error));
+  const nearest = -roundedUp(point.distance - point.nearest);
   const range = Number.isFinite(point.farthest)
-    ? `${lengthText(point.nearest - point.distance)} to ${lengthText(point.farthest - point.distance, "+")}`
+    ? `${lengthText(nearest)} to ${lengthAtMost(point.farthest - point.distance, "+")}`
     : "the source may be missed";
   return [
     ...(point.elevation === undefined
@@ -30,7 +37,7 @@ function rowsOf(point: PickedPoint): PickText["rows"] {
     ["x, y, z", `${x}, ${y}, ${z}`, "World metres"],
     [
       "Off by",
-      `${lengthText(point.error)} at most`,
+      `${lengthAtMost(offAsWritten(point))} at most`,
       "How far the source's surface may be from the point, however cells between posts are read",
     ],
     ["Distance", lengthText(point.distance), "From the eye"],
