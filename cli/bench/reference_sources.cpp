@@ -98,6 +98,14 @@ absl::Status isNowhere(const std::string& imported, const std::optional<Files>& 
                     imported, fmt::join(*recorded, ", ")));
 }
 
+absl::Status isAnother(const Files& files, const std::string& imported, std::uint64_t hash,
+                       std::uint64_t kept) {
+    return absl::InvalidArgumentError(
+        fmt::format("{}: is not what {} was imported from: its hash is {:016x}, that of the "
+                    "import's source {:016x}; import it again, or name what it was with --source",
+                    fmt::join(files, ", "), imported, hash, kept));
+}
+
 struct Candidate {
     FoundSource source;
     std::uint64_t neededBytes = 0;
@@ -113,14 +121,10 @@ absl::StatusOr<Candidate> findSource(const fabric::SceneObject& object, const Fi
             continue;
         ASSIGN_OR_RETURN(const truth::SourceFacts facts, truth::inspectSource(object.kind, files));
         if (facts.hash == kept)
-            return Candidate{{object.path, object.kind, object.singleSided, files},
+            return Candidate{{object.path, object.kind, object.singleSided, files, kept},
                              facts.neededBytes};
         if (absl::IsNotFound(refused))
-            refused = absl::InvalidArgumentError(
-                fmt::format("{}: is not what {} was imported from: its hash is {:016x}, that of "
-                            "the import's source {:016x}; import it again, or name what it was "
-                            "with --source",
-                            fmt::join(files, ", "), object.path, facts.hash, kept));
+            refused = isAnother(files, object.path, facts.hash, kept);
     }
     return refused;
 }
@@ -156,6 +160,9 @@ absl::StatusOr<ReferenceScene> readSources(const fabric::Scene& scene,
     for (const FoundSource& one : found) {
         ASSIGN_OR_RETURN(sources.emplace_back(),
                          truth::readSource(one.kind, one.files, one.isOneSided));
+        // A flight may have taken an hour since it was found.
+        if (sources.back().hash != one.hash)
+            return isAnother(one.files, one.imported, sources.back().hash, one.hash);
     }
     ReferenceScene reference;
     std::vector<truth::PlacedSurface> placed;

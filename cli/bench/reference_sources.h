@@ -22,6 +22,7 @@ struct FoundSource {
     fabric::ObjectKind kind = fabric::ObjectKind::Mesh;
     bool isOneSided = false;  ///< as its object is drawn
     std::vector<std::string> files;
+    std::uint64_t hash = 0;  ///< theirs, as the import keeps it
 
     bool isOf(const fabric::SceneObject& object) const {
         return imported == object.path && isOneSided == object.singleSided;
@@ -58,7 +59,8 @@ struct ReferenceScene {
     std::shared_ptr<const truth::PlacedSurfaces> surface;
 };
 
-/// Precondition: `found` is what findSources gave for it. Errors: those of readSource.
+/// Precondition: `found` is what findSources gave for it. Errors: those of readSource;
+/// InvalidArgument (the files have changed since).
 absl::StatusOr<ReferenceScene> readSources(const fabric::Scene& scene,
                                            const std::vector<FoundSource>& found);
 

@@ -119,9 +119,9 @@ void addImportMesh(CLI::App& parent, Run& run) {
             "points may then gape")
         ->check(CLI::Range(mesh::kMinLatticeBits, mesh::kLatticeBits))
         ->capture_default_str();
-    command->add_flag("--raw", choices->how.isRaw,
-                      "Leave pages uncoded, to be mapped: the file is three times as large, and "
-                      "nothing is decoded");
+    command->add_flag(
+        "--raw", choices->how.isRaw,
+        "Leave pages uncoded: the file is three times as large, and nothing is decoded");
     command->add_flag("--lossless", choices->how.pack.keepsExact,
                       "Keep the source's own positions, bit for bit, beside those that are drawn");
     command

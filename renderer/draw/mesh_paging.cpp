@@ -42,9 +42,9 @@ DeviceNode upload(const LoadedNode& loaded) {
     return node;
 }
 
-/// What a node's page takes in memory. Mapped ones are the system's.
+/// What a node's page takes in memory.
 std::uint64_t hostBytes(const mesh::EymFile& file, std::uint32_t node) {
-    return file.isMapped() ? 0 : mesh::blockBytes(file.shape(node));
+    return mesh::blockBytes(file.shape(node));
 }
 
 page::Loader::Load loadFrom(std::shared_ptr<const mesh::EymFile> file) {

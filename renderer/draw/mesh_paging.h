@@ -37,7 +37,7 @@ struct DeviceNode {
 /// Limits in bytes of what one mesh holds; they hold at all times.
 struct MeshMemory {
     std::uint64_t deviceBytes = 0;
-    std::uint64_t hostBytes = 0;  ///< decoded pages in memory or being loaded; mapped ones are not
+    std::uint64_t hostBytes = 0;  ///< pages in memory or being loaded
 };
 
 /// Which nodes of one mesh are on the device, and the pages on their way there. GL thread.

@@ -17,7 +17,7 @@ namespace eyrie::import {
 struct MeshImportOptions {
     std::uint32_t leafTriangles = 8192;  ///< triangles a leaf may have; 1 to 65,535
     PackOptions pack = {};               ///< lattice, normals and winding
-    bool isRaw = false;                  ///< pages are not coded, but mapped as they are
+    bool isRaw = false;                  ///< pages are not coded
     /// About as much is used: PLY files of meshes that would take more are imported part by part,
     /// with what is left on the disk of the output. 0: as much as it takes.
     std::uint64_t memoryBytes = 0;

@@ -14,8 +14,8 @@
 #include "fabric/status.h"
 #include "renderer/mesh/codec/page_codec.h"
 #include "renderer/mesh/eym_check.h"
+#include "renderer/mesh/mapped_file.h"
 #include "renderer/mesh/vertex_packing.h"
-#include "renderer/page/remote_name.h"
 
 namespace eyrie::mesh {
 namespace {
@@ -57,12 +57,6 @@ absl::StatusOr<EymFile> EymFile::open(const std::string& path, const page::Sourc
                      page::PageSource::open(path, sizeof(EymHeader), options));
     EymFile file(std::move(source));
     RETURN_IF_ERROR(file.readTables());
-    if (!file.isCoded() && !page::isRemote(path)) {
-        ASSIGN_OR_RETURN(file.mapped_, MappedFile::open(path));
-        if (file.mapped_->bytes().size() != file.fileBytes())
-            return absl::UnavailableError(
-                fmt::format("{}: changed while it was being opened; try again", path));
-    }
     return file;
 }
 
@@ -188,9 +182,6 @@ absl::StatusOr<NodeGeometry> EymFile::readBlock(std::uint32_t index) const {
     const NodeShape shape = this->shape(index);
     if (!node.hasGeometry())
         return NodeGeometry{};
-    if (mapped_)
-        return geometryIn(mapped_->bytes().subspan(node.pageOffset, node.pageBytes), shape,
-                          nullptr);
     auto block = std::make_shared<std::vector<std::uint64_t>>(blockBytes(shape) / 8);
     const auto blockSpan = std::as_writable_bytes(std::span(*block));
     const page::Block page{node.pageOffset, node.pageBytes, node.pageChecksum};

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,7 +17,6 @@
 #include "fabric/lights.h"
 #include "renderer/mesh/codec/exact_codec.h"
 #include "renderer/mesh/lattice.h"
-#include "renderer/mesh/mapped_file.h"
 #include "renderer/mesh/material.h"
 #include "renderer/mesh/node_block.h"
 #include "renderer/page/page_source.h"
@@ -38,7 +36,7 @@
 ///   pages                           of the nodes that have geometry, in their order: that of what
 ///                                   is drawn, and then, where kept, that of source positions
 ///   images                          (material.h)
-/// A node's page, uncoded, is the block of node_block.h, ready to be mapped; it then begins on a
+/// A node's page, uncoded, is the block of node_block.h, as it is drawn; it then begins on a
 /// multiple of 8 bytes. Coded (kIsCoded) it is that of codec/page_codec.h, and gives the same block
 /// to the bit. Source positions are always coded (codec/exact_codec.h); only leaves have them.
 /// A node's geometry is self-contained: 16-bit indices count from its own first vertex. Leaves have
@@ -47,14 +45,14 @@
 /// colours or textures.
 namespace eyrie::mesh {
 
-static_assert(std::endian::native == std::endian::little, ".eym files are mapped as they are");
+static_assert(std::endian::native == std::endian::little, ".eym files are read as they are");
 
 inline constexpr std::array<char, 8> kEymMagic = {'E', 'Y', 'M', 'E', 'S', 'H', '\0', '\x01'};
 inline constexpr std::uint32_t kEymVersion = 7;
 
 /// In EymHeader::flags.
 inline constexpr std::uint32_t kHasColours = 1;
-inline constexpr std::uint32_t kIsCoded = 2;         ///< pages are; otherwise they are mapped
+inline constexpr std::uint32_t kIsCoded = 2;         ///< pages are
 inline constexpr std::uint32_t kHasExact = 4;        ///< leaves have source positions ...
 inline constexpr std::uint32_t kExactIsFloat64 = 8;  ///< ... in double precision
 inline constexpr std::uint32_t kHasTextures = 16;    ///< vertices have texture coordinates
@@ -203,8 +201,7 @@ static_assert(sizeof(Cone) == 32);
 /// An open .eym file. Any thread may call any function.
 ///
 /// open() checks the header and every node; geometry() and exactPositions() check what they read.
-/// So no file, however damaged, makes a reader leave its mapping or take more memory than a node
-/// has.
+/// So no file, however damaged, makes a reader take more memory than a node has.
 class EymFile {
 public:
     /// `path` may be an address (page/remote_name.h): pages are then read one by one, through the
@@ -219,8 +216,6 @@ public:
     std::span<const Node> nodes() const { return nodes_; }  ///< never empty; [0] is the root
     bool hasColours() const { return (header_.flags & kHasColours) != 0; }
     bool isCoded() const { return (header_.flags & kIsCoded) != 0; }
-    /// Whether geometry() of it is not copied, and belongs to the system.
-    bool isMapped() const { return mapped_.has_value(); }
     bool hasExactPositions() const { return (header_.flags & kHasExact) != 0; }
     std::uint64_t triangleCount() const { return header_.triangleCount; }
     std::uint64_t vertexCount() const { return header_.sourceVertexCount; }
@@ -258,10 +253,8 @@ public:
     /// Image::blocks of an image. Precondition: image < images().size(). Errors: as of geometry().
     absl::StatusOr<std::vector<std::byte>> imageBlocks(std::uint32_t image) const;
 
-    /// Reads and decodes a node's page; one that is uncoded and lies in a file of this machine
-    /// stays where it is mapped, and is valid while this lives. Precondition: node <
-    /// nodes().size(). Errors: DataLoss, naming file and node, when it is damaged; those of
-    /// page::PageSource::read.
+    /// Reads and decodes a node's page. Precondition: node < nodes().size(). Errors: DataLoss,
+    /// naming file and node, when it is damaged; those of page::PageSource::read.
     absl::StatusOr<NodeGeometry> geometry(std::uint32_t node) const;
 
     /// The source's own position of each vertex of a leaf, as geometry() numbers them.
@@ -280,7 +273,6 @@ private:
     absl::Status inNode(std::uint32_t node, const absl::Status& status) const;
 
     std::unique_ptr<page::PageSource> source_;
-    std::optional<MappedFile> mapped_;  ///< of uncoded files of this machine
     EymHeader header_;
     Lattice lattice_;
     std::vector<Node> nodes_;

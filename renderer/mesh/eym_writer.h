@@ -18,7 +18,7 @@
 namespace eyrie::mesh {
 
 struct EymOptions {
-    /// Pages are coded; otherwise they lie in the file as they are drawn, to be mapped.
+    /// Pages are coded; otherwise they lie in the file as they are drawn.
     bool isCoded = true;
     std::uint64_t sourceHash = 0;  ///< kept in the file (EymFile::sourceHash)
     /// Of source positions, where they are kept; else the least that holds them.

@@ -21,7 +21,7 @@ struct NodeShape {
     bool operator==(const NodeShape&) const = default;
 };
 
-/// A node's geometry as it is mapped, decoded and sent to the device: one block of bytes with one
+/// A node's geometry as it is read, decoded and sent to the device: one block of bytes with one
 /// array after the other, padded with zeros to a multiple of 8.
 ///   uint64 [vertexCount]  positions (vertex_packing.h)
 ///   uint32 [vertexCount]  normals
@@ -65,7 +65,7 @@ struct NodeGeometry {
     std::span<const glm::ivec2> textureCoordinates;  ///< the same
     std::span<const std::uint16_t> indices;          ///< each below positions.size()
     std::span<const std::byte> block;   ///< all of them, as above; empty where they lie apart
-    std::shared_ptr<const void> owner;  ///< of the block; null where it is mapped
+    std::shared_ptr<const void> owner;  ///< of the block
 };
 
 /// The arrays that lie in a block. Preconditions: it is aligned to 8 bytes and has

@@ -39,7 +39,7 @@ public:
                     fmt::format("{}: read failed: {}", path_, std::strerror(errno)));
             if (got == 0)
                 return absl::DataLossError(fmt::format(
-                    "{}: the file ends at byte {}; import or copy it again", path_, offset));
+                    "{}: the file ends before byte {}; import or copy it again", path_, offset));
             into = into.subspan(static_cast<std::size_t>(got));
             offset += static_cast<std::uint64_t>(got);
         }

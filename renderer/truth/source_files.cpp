@@ -66,7 +66,7 @@ absl::StatusOr<SourceSurface> readTerrain(const std::vector<std::string>& paths)
     if (std::ranges::all_of(grid.heights, [](float height) { return std::isnan(height); }))
         return absl::InvalidArgumentError(fmt::format("{}: has no data at any of its {} x {} posts",
                                                       paths.front(), grid.columns, grid.rows));
-    return SourceSurface{std::make_shared<TerrainRayCaster>(std::move(grid)), nullptr};
+    return SourceSurface{std::make_shared<TerrainRayCaster>(std::move(grid)), nullptr, source.hash};
 }
 
 Sight sightOf(const mesh::Material& material, bool isOneSided) {
@@ -93,7 +93,8 @@ absl::StatusOr<SourceSurface> readMesh(const std::vector<std::string>& paths, bo
     std::vector<Sight> sights = sightsOf(mesh, isOneSided);
     TriangleMesh triangles{std::move(mesh.positions), std::move(mesh.triangles), std::move(sights)};
     mesh = {};
-    return SourceSurface{nullptr, std::make_shared<MeshRayCaster>(std::move(triangles))};
+    ASSIGN_OR_RETURN(const std::uint64_t hash, import::meshSourceHash(paths));
+    return SourceSurface{nullptr, std::make_shared<MeshRayCaster>(std::move(triangles)), hash};
 }
 
 }  // namespace

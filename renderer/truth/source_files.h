@@ -32,6 +32,7 @@ absl::StatusOr<SourceFacts> inspectSource(fabric::ObjectKind kind,
 struct SourceSurface {
     std::shared_ptr<const TerrainRayCaster> terrain;
     std::shared_ptr<const MeshRayCaster> mesh;
+    std::uint64_t hash = 0;  ///< SourceFacts::hash, when it was read
 
     std::shared_ptr<const ReferenceSurface> surface() const {
         return terrain ? std::shared_ptr<const ReferenceSurface>(terrain) : mesh;

@@ -104,6 +104,31 @@ TEST_F(ReferenceSources, ThatHaveChangedAreRefusedWithBothHashes) {
     EXPECT_EQ(foundFile(), folder_.path("ball.ply")) << "what it was lies beside the import";
 }
 
+/// While a flight is played there is time enough.
+TEST_F(ReferenceSources, ThatChangeBeforeTheyAreReadAreRefusedWithBothHashes) {
+    const auto found = find();
+    ASSERT_TRUE(found.ok()) << found.status();
+    EXPECT_TRUE(readSources(scene_, *found).ok());
+    writeBall("from/ball.ply", 2);
+    const auto after = truth::inspectSource(fabric::ObjectKind::Mesh, {source_});
+    ASSERT_TRUE(after.ok());
+    const absl::Status refused = readSources(scene_, *found).status();
+    EXPECT_TRUE(absl::IsInvalidArgument(refused)) << refused;
+    EXPECT_THAT(refused.ToString(), testing::HasSubstr(source_));
+    EXPECT_THAT(refused.ToString(), testing::HasSubstr(fmt::format("{:016x}", (*found)[0].hash)));
+    EXPECT_THAT(refused.ToString(), testing::HasSubstr(fmt::format("{:016x}", after->hash)));
+}
+
+TEST_F(ReferenceSources, OfTerrainsAreReadWithTheirHash) {
+    const std::string path = folder_.path("dem.asc");
+    std::ofstream(path) << "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2\n3 4\n";
+    const auto facts = truth::inspectSource(fabric::ObjectKind::Terrain, {path});
+    ASSERT_TRUE(facts.ok()) << facts.status();
+    const auto source = truth::readSource(fabric::ObjectKind::Terrain, {path});
+    ASSERT_TRUE(source.ok()) << source.status();
+    EXPECT_EQ(source->hash, facts->hash);
+}
+
 TEST_F(ReferenceSources, ThatMemoryCannotHoldAreRefusedWithWhatTheyTake) {
     const absl::Status refused = find({}, 100 << 10).status();
     EXPECT_TRUE(absl::IsResourceExhausted(refused)) << refused;

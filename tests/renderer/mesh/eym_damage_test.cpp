@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever happens to the bytes of an .eym file, a reader ends in a status or in spans that lie
-// inside the file. Run under the address sanitizer this also shows that nothing is read outside.
+// Whatever happens to the bytes of an .eym file, a reader ends in a status or in spans that may be
+// read. Run under the address sanitizer this also shows that nothing is read outside.
 #include <cstring>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <string>
@@ -328,7 +329,7 @@ TEST(EymDamage, AnEarlierVersionIsRefusedForItsBounds) {
     EXPECT_NE(status.message().find("import the mesh again"), std::string::npos) << status;
 }
 
-TEST(EymDamage, OfAPageThatIsMappedIsRefusedByItsShape) {
+TEST(EymDamage, OfAnUncodedPageIsRefusedByItsShape) {
     const test::TemporaryFolder folder;
     const std::string& bytes = smallFile(false);
     for (const auto& damage :
@@ -348,10 +349,31 @@ TEST(EymDamage, AnIndexBeyondItsVerticesIsRefusedWithARightChecksum) {
     std::memcpy(bytes.data() + leaf.pageOffset + leaf.vertexCount * 24, &leaf.vertexCount, 2);
     leaf.blockChecksum =
         contentHash(std::as_bytes(std::span(bytes).subspan(leaf.pageOffset, leaf.pageBytes)));
+    leaf.pageChecksum = leaf.blockChecksum;
     test::writeFile(folder.file("m.eym"), tables.sealedInto(bytes));
     const absl::Status status = readAll(folder.file("m.eym"));
     EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss);
     EXPECT_NE(status.message().find("found index"), std::string::npos) << status;
+}
+
+/// What was read stays as it was, and what is read then is refused.
+TEST(EymDamage, OfAnOpenFileThatIsCutShortOrWrittenOverIsNoticed) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.file("m.eym");
+    for (const bool isCoded : {false, true}) {
+        const std::string& whole = smallFile(isCoded);
+        for (const std::string& now : {std::string(), std::string(whole.size(), '\xff')}) {
+            test::writeFile(path, whole);
+            const auto file = EymFile::open(path);
+            ASSERT_TRUE(file.ok()) << file.status();
+            const auto last = static_cast<std::uint32_t>(file->nodes().size() - 1);
+            const auto geometry = file->geometry(last);
+            ASSERT_TRUE(geometry.ok()) << geometry.status();
+            std::ofstream(path, std::ios::binary) << now;  // in place
+            EXPECT_EQ(file->geometry(last).status().code(), absl::StatusCode::kDataLoss);
+            EXPECT_EQ(contentHash(geometry->block), file->nodes()[last].blockChecksum);
+        }
+    }
 }
 
 /// What a page decodes to is held against what was encoded, whatever the page's own checksum says.

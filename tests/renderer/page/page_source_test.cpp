@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -163,6 +164,19 @@ TEST_F(RemotePages, OfAFileThatGotShorterAreRefused) {
     const absl::Status status = read(*source, block(9000, 500));
     EXPECT_TRUE(absl::IsDataLoss(status)) << status;
     EXPECT_NE(status.ToString().find("has changed on the server"), std::string::npos) << status;
+}
+
+TEST(LocalPages, OfAFileThatGotShorterAreRefusedByWhereItHasToGoOn) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder.path("a.eyt"), std::ios::binary) << contentOf(1, 10'000);
+    const auto source = PageSource::open(folder.path("a.eyt"), kHead, {});
+    ASSERT_TRUE(source.ok()) << source.status();
+    std::filesystem::resize_file(folder.path("a.eyt"), 5000);
+    std::vector<std::byte> bytes(500);
+    const absl::Status status = (*source)->read({9000, bytes.size(), 0}, bytes, "page 7");
+    EXPECT_TRUE(absl::IsDataLoss(status)) << status;
+    EXPECT_NE(status.ToString().find("page 7: the file ends before byte 9000"), std::string::npos)
+        << status;
 }
 
 TEST_F(RemotePages, DamagedOnTheServerAreSaidToBe) {
