@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "fabric/log.h"
 #include "fabric/status.h"
 
@@ -63,7 +65,7 @@ Dispatch::Clock::time_point Dispatch::nextLook() const {
     const Clock::time_point now = Clock::now();
     Clock::time_point next = now + kLookAgain;
     for (const Part& part : parts_)
-        if (!part.done && part.running != 0 && part.hasBegun && part.late > now)
+        if (!part.done && isLastAtWork(part) && part.hasBegun && part.late > now)
             next = std::min(next, part.late);
     return next;
 }
@@ -80,7 +82,7 @@ absl::Status Dispatch::assign(Crew& crew) {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         Part& part = parts_[i];
         const std::vector<std::string>* const queue = part.asked.empty() ? queueOf(i) : nullptr;
-        if (part.done || (part.running != 0 && !isOverdue(part, members)) ||
+        if (part.done || (!part.atWork.empty() && !isOverdue(part, members)) ||
             (queue != nullptr && queue == waiting))
             continue;
         RETURN_IF_ERROR(assign(i, members, crew));
@@ -98,7 +100,7 @@ absl::Status Dispatch::assign(std::size_t index, const Members& members, Crew& c
     if (chosen == nullptr)
         chosen = idleOf(part, members);
     if (chosen == nullptr) {
-        const bool anyLeft = part.running != 0 ||
+        const bool anyLeft = !part.atWork.empty() ||
                              std::any_of(members.begin(), members.end(), [&](const auto& member) {
                                  return !wasAsked(part, *member);
                              });
@@ -114,8 +116,16 @@ bool Dispatch::wasAsked(const Part& part, const Member& member) const {
     return std::find(part.asked.begin(), part.asked.end(), member.id()) != part.asked.end();
 }
 
-/// The renderer that was asked last takes longer than it may, or does not come to it.
+bool Dispatch::isLastAtWork(const Part& part) {
+    return !part.asked.empty() &&
+           std::ranges::find(part.atWork, part.asked.back()) != part.atWork.end();
+}
+
+/// The renderer that was asked last could not draw it, takes longer than it may, or does not come
+/// to it.
 bool Dispatch::isOverdue(const Part& part, const Members& members) const {
+    if (!isLastAtWork(part))
+        return true;
     if (part.hasBegun)
         return Clock::now() >= part.late;
     return std::ranges::any_of(members, [&](const auto& member) {
@@ -188,17 +198,17 @@ void Dispatch::noteReissue(std::size_t index, const Member& chosen, const Member
     Part& part = parts_[index];
     spdlog::warn("frame {}: {} draws the part that {} {}", plan_.tasks[index].frameNumber,
                  chosen.id(), part.asked.back(),
-                 part.running == 0 ? "could not draw"
-                 : part.hasBegun   ? "has not finished"
-                                   : "has not begun");
+                 !isLastAtWork(part) ? "could not draw"
+                 : part.hasBegun     ? "has not finished"
+                                     : "has not begun");
     if (plan_.telemetry)
-        plan_.telemetry->metrics.taskReissued(part.running != 0);
+        plan_.telemetry->metrics.taskReissued(isLastAtWork(part));
     noteLate(part, members);
 }
 
-/// The one at work on `part` is.
+/// The one that was asked for `part` last is, if it is at work on it.
 void Dispatch::noteLate(Part& part, const Members& members) {
-    if (part.running == 0 || !part.hasBegun)
+    if (!isLastAtWork(part) || !part.hasBegun)
         return;
     for (const std::shared_ptr<Member>& member : members)
         if (member->id() == part.asked.back() &&
@@ -217,25 +227,29 @@ void Dispatch::giveUp(const Members& members) {
 
 void Dispatch::start(std::size_t index, Member& member, const Members& members, Crew& crew) {
     Part& part = parts_[index];
-    ++part.running;
     part.hasBegun = false;
     part.asked.push_back(member.id());
+    part.atWork.push_back(member.id());
     const std::chrono::milliseconds patience = patienceWith(member, members);
     const auto self = shared_from_this();
-    member.draw({plan_.frameData, plan_.tasks[index], plan_.sceneRevision, plan_.kind, patience,
-                 plan_.callTimeout,
-                 [self, index, &member, patience] { return self->begin(index, member, patience); },
-                 plan_.freed, plan_.stop},
-                [self, index, &member, &crew](absl::StatusOr<fabric::ChannelResult> result,
-                                              Clock::duration taken) {
-                    const bool isLateNoMore = self->endLateness(index, member);
-                    if (!result.ok())  // even when the dispatch has ended without it
-                        crew.noteFailure(member.id(), result.status());
-                    self->finish(index, member, std::move(result), taken);
-                    self->plan_.freed();
-                    if (isLateNoMore)
-                        crew.noteLateness();
-                });
+    const bool isAsked = member.draw(
+        {plan_.frameData, plan_.tasks[index], plan_.sceneRevision, plan_.kind, patience,
+         plan_.callTimeout,
+         [self, index, &member, patience] { return self->begin(index, member, patience); },
+         plan_.freed, plan_.stop},
+        [self, index, &member, &crew](absl::StatusOr<fabric::ChannelResult> result,
+                                      Clock::duration taken) {
+            if (!result.ok())  // even when the dispatch has ended without it
+                crew.noteFailure(member.id(), result.status());
+            const bool isLateNoMore = self->finish(index, member, std::move(result), taken);
+            self->plan_.freed();
+            if (isLateNoMore)
+                crew.noteLateness();
+        });
+    if (isAsked)
+        return;
+    part.atWork.pop_back();  // it has ended since the crew was asked
+    part.error = absl::UnavailableError(fmt::format("{} was given up", member.id()));
 }
 
 /// False when it need not.
@@ -255,17 +269,14 @@ bool Dispatch::begin(std::size_t index, const Member& member, std::chrono::milli
 }
 
 /// Returns whether `member` was late and is so no more.
-bool Dispatch::endLateness(std::size_t index, Member& member) {
-    const std::lock_guard lock(mutex_);
-    return std::erase(parts_[index].slow, member.id()) != 0 && member.removeLate();
-}
-
-void Dispatch::finish(std::size_t index, const Member& member,
+bool Dispatch::finish(std::size_t index, Member& member,
                       absl::StatusOr<fabric::ChannelResult> result, Clock::duration taken) {
+    bool isLateNoMore = false;
     {
         const std::lock_guard lock(mutex_);
         Part& part = parts_[index];
-        --part.running;
+        std::erase(part.atWork, member.id());
+        isLateNoMore = std::erase(part.slow, member.id()) != 0 && member.removeLate();
         if (!result.ok()) {
             part.error = result.status();
         } else if (!part.done) {
@@ -274,6 +285,7 @@ void Dispatch::finish(std::size_t index, const Member& member,
         }
     }
     changed_.notify_one();
+    return isLateNoMore;
 }
 
 }  // namespace eyrie::coordinator

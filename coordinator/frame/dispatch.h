@@ -69,11 +69,11 @@ private:
     struct Part {
         bool done = false;
         Drawn drawn;
-        int running = 0;                 ///< renderers that have it, drawn or to be drawn
-        bool hasBegun = false;           ///< the one that was asked last, with it
-        Clock::time_point late;          ///< when to ask another one as well, if it has begun
-        std::vector<std::string> asked;  ///< ids of renderers; the one at work came last
-        std::vector<std::string> slow;   ///< those of them that are late with it
+        std::vector<std::string> asked;   ///< ids of renderers, in turn
+        std::vector<std::string> atWork;  ///< those of them that have it, drawn or to be drawn
+        std::vector<std::string> slow;    ///< those at work that are late with it
+        bool hasBegun = false;            ///< the one that was asked last, with it
+        Clock::time_point late;           ///< when to ask another one as well, if it has begun
         absl::Status error = absl::UnavailableError("no renderer is ready");
     };
     using Members = std::vector<std::shared_ptr<Member>>;
@@ -86,6 +86,7 @@ private:
     absl::Status assign(std::size_t index, const Members& members, Crew& crew);
     bool isOverdue(const Part& part, const Members& members) const;
     bool wasAsked(const Part& part, const Member& member) const;
+    static bool isLastAtWork(const Part& part);
     Member* preferredOf(std::size_t index, const Members& members) const;
     const std::vector<std::string>* queueOf(std::size_t index) const;
     Member* takerOf(std::size_t index, const std::vector<std::string>& takers,
@@ -98,9 +99,8 @@ private:
     void giveUp(const Members& members);
     void start(std::size_t index, Member& member, const Members& members, Crew& crew);
     bool begin(std::size_t index, const Member& member, std::chrono::milliseconds patience);
-    bool endLateness(std::size_t index, Member& member);
-    void finish(std::size_t index, const Member& member,
-                absl::StatusOr<fabric::ChannelResult> result, Clock::duration taken);
+    bool finish(std::size_t index, Member& member, absl::StatusOr<fabric::ChannelResult> result,
+                Clock::duration taken);
 
     const Plan plan_;
     std::mutex mutex_;  ///< guards what follows

@@ -65,12 +65,15 @@ void Member::Hold::end() {
     member_.changed_.notify_all();
 }
 
-void Member::post(Job job) {
+bool Member::post(Job job) {
     {
         const std::lock_guard lock(mutex_);
+        if (retired_)
+            return false;
         jobs_.push_back(std::move(job));
     }
     changed_.notify_all();
+    return true;
 }
 
 void Member::work() {
@@ -118,10 +121,11 @@ void Member::open(std::shared_ptr<const fabric::Scene> scene, std::uint64_t revi
     });
 }
 
-void Member::draw(const Draw& what, DrawDone done) {
-    post([this, frameData = what.frameData, task = what.task, revision = what.revision,
-          kind = what.kind, patience = what.patience, timeout = what.timeout, begins = what.begins,
-          drawn = what.drawn, stop = what.stop, done = std::move(done)](Hold& hold) {
+bool Member::draw(const Draw& what, DrawDone done) {
+    return post([this, frameData = what.frameData, task = what.task, revision = what.revision,
+                 kind = what.kind, patience = what.patience, timeout = what.timeout,
+                 begins = what.begins, drawn = what.drawn, stop = what.stop,
+                 done = std::move(done)](Hold& hold) {
         drawNow({frameData, task, revision, kind, patience, timeout, begins, drawn, stop}, hold,
                 done);
     });
@@ -167,9 +171,11 @@ std::future<absl::Status> Member::prepare(const fabric::FrameData& frameData,
                                           std::chrono::milliseconds timeout) {
     auto prepared = std::make_shared<std::promise<absl::Status>>();
     std::future<absl::Status> done = prepared->get_future();
-    post([this, frameData, revision, timeout, prepared](Hold&) {
+    const bool isPosted = post([this, frameData, revision, timeout, prepared](Hold&) {
         prepared->set_value(sendFrameData(frameData, revision, Clock::now() + timeout));
     });
+    if (!isPosted)
+        prepared->set_value(absl::UnavailableError(fmt::format("{} was given up", id_)));
     return done;
 }
 

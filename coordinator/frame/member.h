@@ -79,7 +79,8 @@ public:
         std::stop_token stop = {};  ///< ends it, as Cancelled
     };
     /// Sends the frame data first where the renderer does not have that version. Copies `what`.
-    void draw(const Draw& what, DrawDone done);
+    /// False after retire(): `done` is not called then.
+    bool draw(const Draw& what, DrawDone done);
 
     /// Sends the frame data where the renderer does not have that version, after the jobs before.
     std::future<absl::Status> prepare(const fabric::FrameData& frameData, std::uint64_t revision,
@@ -103,7 +104,7 @@ public:
     /// Calls `left` when the jobs given before are done.
     void leave(std::function<void()> left);
 
-    /// Ends: jobs in progress and in the queue fail soon. Does not wait.
+    /// Ends: jobs in progress and in the queue fail soon, and no others are taken. Does not wait.
     void retire();
     bool hasEnded() const { return ended_ == kThreads; }
 
@@ -128,7 +129,8 @@ private:
     };
     using Job = std::function<void(Hold&)>;
 
-    void post(Job job);
+    /// False after retire(): there may be nobody left who would do it.
+    bool post(Job job);
     void work();
     void drawNow(const Draw& what, Hold& hold, const DrawDone& done);
     absl::Status checkRevision(std::uint64_t revision) const;

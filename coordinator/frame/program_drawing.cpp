@@ -98,15 +98,17 @@ absl::StatusOr<DrawnFrame> ProgramDrawing::tryToDraw(const PlannedFrame& frame,
     others.freed = options_.freed;
     others.telemetry = options_.telemetry;
     auto drawn = std::make_shared<Dispatch>(std::move(others))->run(crew_);
-    ASSIGN_OR_RETURN(ProgramRuns::Result result, running.get());
-    RETURN_IF_ERROR(drawn.status());
-    rendering.stop();
-    {
+    absl::StatusOr<ProgramRuns::Result> ran = running.get();
+    if ((ran.ok() && drawn.ok()) || absl::IsDeadlineExceeded(ran.status())) {
+        // Of what is not done in time so much is known: it takes as long at least.
         const std::lock_guard lock(mutex_);
         patience_.record(
             frame.kind, timeout,
             std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - started));
     }
+    ASSIGN_OR_RETURN(ProgramRuns::Result result, std::move(ran));
+    RETURN_IF_ERROR(drawn.status());
+    rendering.stop();
     const observe::StageTimer composing(telemetry, observe::Stage::Compose, frame.timeLine,
                                         frame.number);
     DrawnFrame whole;

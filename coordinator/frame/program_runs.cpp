@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/frame/program_runs.h"
 
+#include <chrono>
 #include <future>
 #include <iterator>
 #include <stop_token>
@@ -10,6 +11,9 @@
 
 namespace eyrie::coordinator {
 namespace {
+
+/// How often what waits looks whether it is still wanted.
+constexpr std::chrono::milliseconds kLookForStop{20};
 
 fabric::ChannelProgram addressed(const compound::PlannedProgram& planned,
                                  const ProgramRuns::Setting& setting,
@@ -37,10 +41,17 @@ absl::Status prepareAll(const ProgramRuns::Setting& setting,
     for (const auto& one : renderers)
         prepared.push_back(one->prepare(setting.frameData, setting.sceneRevision, setting.timeout));
     absl::Status status;
-    for (auto& one : prepared)
-        status.Update(one.wait_for(setting.timeout) == std::future_status::ready
-                          ? one.get()
-                          : absl::DeadlineExceededError("a renderer has other work to do"));
+    for (auto& one : prepared) {
+        const auto deadline = std::chrono::steady_clock::now() + setting.timeout;
+        bool isReady = false;
+        while (!isReady && !setting.stop.stop_requested() &&
+               std::chrono::steady_clock::now() < deadline)
+            isReady = one.wait_for(kLookForStop) == std::future_status::ready;
+        if (setting.stop.stop_requested())
+            return absl::CancelledError("nobody wants this frame any more");
+        status.Update(isReady ? one.get()
+                              : absl::DeadlineExceededError("a renderer has other work to do"));
+    }
     return status;
 }
 

@@ -56,13 +56,20 @@ coordinator::FrameRequest drawingOf(const ViewRequest& view, const fabric::Scene
     return request;
 }
 
-void tellAtFullSize(fabric::FrameStatistics& statistics, const ViewRequest& view,
-                    const coordinator::FrameRequest& drawn) {
-    const double factor = stretch(view, drawn);
+double stretchOf(const ViewRequest& view, const coordinator::FrameRequest& asked,
+                 const fabric::PixelViewport& drawn) {
+    double within = 1;
+    if (asked.budgetMilliseconds)
+        within = std::max({1.0, static_cast<double>(asked.width) / drawn.width,
+                           static_cast<double>(asked.height) / drawn.height});
+    return within * stretch(view, asked);
+}
+
+void tellAtFullSize(fabric::FrameStatistics& statistics, const ViewRequest& view, double stretch) {
     statistics.tauAskedPixels = view.frame.tauPixels;
-    statistics.tauAchievedPixels *= factor;
+    statistics.tauAchievedPixels *= stretch;
     if (statistics.budget)
-        statistics.budget->tauPixels *= factor;
+        statistics.budget->tauPixels *= stretch;
 }
 
 }  // namespace eyrie::stream

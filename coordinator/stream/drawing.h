@@ -32,8 +32,12 @@ double movingScale(const ViewRequest& view, const PictureSource* source);
 coordinator::FrameRequest drawingOf(const ViewRequest& view, const fabric::SceneInfo* scene,
                                     double scale);
 
-/// Puts errors in pixels of `drawn` into pixels of the picture that was asked for.
-void tellAtFullSize(fabric::FrameStatistics& statistics, const ViewRequest& view,
-                    const coordinator::FrameRequest& drawn);
+/// Pixels of the view that one of the picture covers, the longer way: `asked` for, and `drawn`
+/// smaller than that where it was to hold a time. 1 or more.
+double stretchOf(const ViewRequest& view, const coordinator::FrameRequest& asked,
+                 const fabric::PixelViewport& drawn);
+
+/// Puts errors in pixels of the picture into pixels of the view, which are `stretch` smaller.
+void tellAtFullSize(fabric::FrameStatistics& statistics, const ViewRequest& view, double stretch);
 
 }  // namespace eyrie::stream

@@ -6,15 +6,11 @@
 namespace eyrie::stream {
 namespace {
 
-/// Coarser or smaller than what was asked for, to keep a frame time or for the link's sake, or
-/// encoded before it came here. Two eyes in one picture have twice the width or the height; a
-/// smaller picture is smaller in both.
+/// Coarser or smaller than what was asked for, or encoded before it came here.
 bool isBelowAsked(const Picture& picture) {
     const fabric::FrameStatistics& statistics = picture.frame->statistics;
-    const fabric::PixelViewport& area = picture.frame->image.area;
     return (statistics.budget && statistics.budget->tauPixels > statistics.tauAskedPixels) ||
-           !picture.frame->tiles.empty() || area.width < picture.view.frame.width ||
-           area.height < picture.view.frame.height;
+           !picture.frame->tiles.empty() || picture.isReduced;
 }
 
 bool isSame(const ViewRequest& a, const ViewRequest& b) {

@@ -18,7 +18,8 @@ struct Picture {
     std::shared_ptr<const coordinator::RenderedFrame> frame;
     Clock::time_point started;
     std::optional<fabric::Camera> liftedCamera = {};  ///< shown where the view's is under ground
-    int level = 0;  ///< the best of QualityControl's that it is large enough for
+    int level = 0;           ///< the best of QualityControl's that it is large enough for
+    bool isReduced = false;  ///< drawn smaller than asked for, for a link's or a time's sake
     std::vector<coordinator::Shown> shown = {};  ///< the outputs that were asked for
     std::uint64_t number = 0;  ///< 1, 2, … in the order in which they were drawn
 };

@@ -183,13 +183,15 @@ void Session::Impl::rendered(const Begun& begun, absl::StatusOr<coordinator::Ren
         for (const auto& seat : seats_) seat->outbox.rendered(now - from);
         setProblem(renderProblem_, std::string(coordinator::whyEmpty(*frame)));
         setProblem(renderNote_, std::string(coordinator::whyPartlyEmpty(*frame)));
-        tellAtFullSize(frame->statistics, begun.view, begun.request);
+        const double stretch = stretchOf(begun.view, begun.request, frame->image.area);
+        tellAtFullSize(frame->statistics, begun.view, stretch);
         if (statistics_ != nullptr)
             statistics_->drawn(id_, *frame);
         Picture picture{begun.view,
                         std::make_shared<const coordinator::RenderedFrame>(*std::move(frame)),
                         begun.at};
         picture.level = begun.level;
+        picture.isReduced = stretch > 1;
         picture.shown = begun.request.shown;
         if (!(begun.request.camera == begun.view.frame.camera))
             picture.liftedCamera = begun.request.camera;

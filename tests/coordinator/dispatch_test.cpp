@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/frame/dispatch.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -131,6 +132,33 @@ TEST_F(ImpatientDispatch, ARendererOfWhichNothingIsKnownIsGivenAsLongAsTheOthers
     EXPECT_LT(std::chrono::steady_clock::now() - start, seconds(25));  // half of firstPatience
     EXPECT_EQ(drawn(), (std::vector<int>{3, 0}));
     renderers_[1]->hang(false);
+}
+
+/// Expected: it is asked no more, but it is not late either, for it has nothing in hand.
+TEST_F(ImpatientDispatch, OneThatFailsWhileAnotherHangsIsNotLate) {
+    openWith(3);
+    ASSERT_TRUE(draw({0, 1, 2}).ok());
+    renderers_[0]->hang(true);
+    renderers_[1]->failToRender(absl::ResourceExhaustedError("too much to do"));
+    ASSERT_TRUE(draw({0}).ok());
+    EXPECT_EQ(drawn(), (std::vector<int>{1, 1, 2}));
+    for (const auto& member : crew_.ready(crew_.state().revision))
+        EXPECT_EQ(member->isLate(), member->id() == ids_[0]) << member->id();
+    renderers_[0]->hang(false);
+    EXPECT_TRUE(eventually([&] {
+        return std::ranges::none_of(crew_.ready(crew_.state().revision),
+                                    [](const auto& member) { return member->isLate(); });
+    }));
+}
+
+TEST(MemberTest, TakesNothingAfterItsEnd) {
+    Member member("a", {}, std::make_shared<FakeRenderer>(nullptr));
+    member.retire();
+    ASSERT_TRUE(eventually([&] { return member.hasEnded(); }));
+    const fabric::FrameData data;
+    const fabric::ChannelTask task;
+    EXPECT_FALSE(member.draw({data, task}, [](const auto&, auto) { FAIL(); }));
+    EXPECT_TRUE(absl::IsUnavailable(member.prepare(data, 1, seconds(1)).get()));
 }
 
 TEST_F(DispatchTest, WhatNobodyWantsIsGivenUpByRenderersAndNotHeldAgainstThem) {

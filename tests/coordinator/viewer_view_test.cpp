@@ -116,7 +116,7 @@ TEST(Viewer, KeepsAFrameTimeUntilTheViewRestsAndThenDrawsWhatWasAskedFor) {
     EXPECT_FALSE(fast->still());
     EXPECT_EQ(fast->width(), 32);
     EXPECT_EQ(fast->statistics().tau_asked(), 1);
-    EXPECT_EQ(fast->statistics().tau_achieved(), 4);
+    EXPECT_EQ(fast->statistics().tau_achieved(), 8) << "in pixels of the view, half as large";
     EXPECT_EQ(fast->statistics().budget().milliseconds(), 33);
     EXPECT_EQ(fast->statistics().budget().predicted_milliseconds(), 30);
     browser.acknowledge(fast->frame_number());
@@ -134,6 +134,20 @@ TEST(Viewer, KeepsAFrameTimeUntilTheViewRestsAndThenDrawsWhatWasAskedFor) {
     ASSERT_EQ(frames.requests().size(), 2u);
     EXPECT_EQ(frames.requests()[0].budgetMilliseconds, 33);
     EXPECT_FALSE(frames.requests()[1].budgetMilliseconds.has_value());
+}
+
+/// As of a segment beside its canvas: it is its share of the size that is asked for.
+TEST(Viewer, RestsWherePicturesAreSmallerThanAskedFor) {
+    FakeFrameSource frames;
+    frames.setDraw([](FrameRequest request) {
+        request.width /= 2;
+        return coordinator::plainFrame(request, {90, 120, 60, 255});
+    });
+    Browser browser(frames, resting());
+    browser.send(viewMessage(1, 1));
+    while (const auto frame = browser.nextFrame(milliseconds(300)))
+        browser.acknowledge(frame->frame_number());
+    EXPECT_LE(frames.requests().size(), 2u);
 }
 
 TEST(Viewer, DrawsOnceWhatFitsItsTimeAsAskedFor) {
