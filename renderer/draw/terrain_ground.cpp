@@ -28,6 +28,18 @@ fabric::Mat4 worldFromTiles(const terrain::EytIndex& index, const fabric::Mat4& 
     return worldFromObject * objectFromTiles;
 }
 
+/// Whether some level draws something there: a coarser one may miss narrow ground.
+bool hasGround(const terrain::EytIndex& index, const terrain::TileId& tile) {
+    if (!index.quadtree.contains(tile))
+        return false;
+    if (index.tile(tile).triangles != 0)
+        return true;
+    for (int i = 0; tile.level > 0 && i < 4; ++i)
+        if (hasGround(index, Quadtree::child(tile, i)))
+            return true;
+    return false;
+}
+
 }  // namespace
 
 fabric::GroundGrid groundOf(const terrain::EytIndex& index, const fabric::Mat4& worldFromObject,
@@ -41,9 +53,10 @@ fabric::GroundGrid groundOf(const terrain::EytIndex& index, const fabric::Mat4& 
     grid.lowest = index.tile(quadtree.top()).minHeightMetres;
     for (int y = 0; y < grid.rows; ++y)
         for (int x = 0; x < grid.columns; ++x) {
-            const terrain::TileRecord& tile = index.tile({level, x, y});
-            grid.highest.push_back(
-                tile.triangles == 0 ? grid.lowest : std::max(tile.maxHeightMetres, grid.lowest));
+            const terrain::TileId tile{level, x, y};
+            grid.highest.push_back(hasGround(index, tile)
+                                       ? std::max(index.tile(tile).maxHeightMetres, grid.lowest)
+                                       : grid.lowest);
         }
     return grid;
 }
