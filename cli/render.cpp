@@ -30,6 +30,7 @@
 #include "cli/stop_signal.h"
 #include "cli/text_file.h"
 #include "cli/values.h"
+#include "coordinator/frame/frame_source.h"
 #include "coordinator/frame/problem.h"
 #include "coordinator/stream/home_camera.h"
 #include "fabric/frame_data.h"

@@ -60,8 +60,8 @@ double stretchOf(const ViewRequest& view, const coordinator::FrameRequest& asked
                  const fabric::PixelViewport& drawn) {
     double within = 1;
     if (asked.budgetMilliseconds)
-        within = std::max({1.0, static_cast<double>(asked.width) / drawn.width,
-                           static_cast<double>(asked.height) / drawn.height});
+        within = std::max({1.0, static_cast<double>(asked.width) / std::max(1, drawn.width),
+                           static_cast<double>(asked.height) / std::max(1, drawn.height)});
     return within * stretch(view, asked);
 }
 

@@ -3,12 +3,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <random>
-#include <string>
 
-#include <fmt/ranges.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -56,37 +52,29 @@ Balanced loadBalanced(int count, const std::string& settings) {
         configurationOf(count - 1, sharedBetween(count, "load_equalizer { " + settings + " }")));
 }
 
-/// Of the cases in 2 to 8 parts: those beyond 15 % of the best split in any of frames 10 to 39.
 /// Equal shares are the best that any split can do: the sum over their number.
-std::vector<std::string> beyond15Percent(double noise, unsigned seed) {
-    std::mt19937 random(seed);
+void expectWithin15Percent(double noise) {
+    std::mt19937 random(7);
     std::uniform_real_distribution<double> off(1 - noise, 1 + noise);
-    std::vector<std::string> beyond;
     for (const auto& [mode, hot] : kCases)
         for (int count = 2; count <= 8; ++count) {
             Balanced balanced = loadBalanced(count, std::string("mode ") + mode);
             const Spot spot{hot};
-            double longest = 0;
             for (int frame = 0; frame < 40; ++frame) {
                 balanced.draw([&](const auto& part) { return spot(part) * off(random); });
-                longest = frame < 10 ? 0 : std::max(longest, imbalance(balanced, spot));
+                if (frame < 10)
+                    continue;
+                ASSERT_LE(imbalance(balanced, spot), 1.15)
+                    << mode << " in " << count << ", frame " << frame;
             }
-            if (longest > 1.15)
-                beyond.push_back(fmt::format("{} in {}: {:.2f}", mode, count, longest));
         }
-    return beyond;
 }
 
 TEST(LoadEqualizer, IsWithin15PercentOfTheBestSplitInTenFramesAndStaysThere) {
-    EXPECT_THAT(beyond15Percent(0, 0), testing::IsEmpty());
+    expectWithin15Percent(0);
 }
 
-TEST(LoadEqualizer, IsNotThrownOffByTimesThatAreATenthOff) {
-    std::vector<std::string> beyond;
-    for (unsigned seed = 0; seed < 3; ++seed)
-        for (const std::string& each : beyond15Percent(.1, seed)) beyond.push_back(each);
-    EXPECT_LE(beyond.size(), 2) << "of 252 runs: " << fmt::format("{}", fmt::join(beyond, "; "));
-}
+TEST(LoadEqualizer, IsNotThrownOffByTimesThatAreATenthOff) { expectWithin15Percent(.1); }
 
 TEST(LoadEqualizer, ComesToRestWhereLoadRests) {
     for (const auto& [mode, hot] : kCases) {
@@ -155,64 +143,6 @@ TEST(LoadEqualizer, GoesAheadOfALoadThatTurnsWithTwoFramesInFlight) {
     EXPECT_LE(imbalanceInFlight(2, {60}), 1.10);
     EXPECT_LE(imbalanceInFlight(2, {120}), 1.06);
     EXPECT_LE(imbalanceInFlight(4, {120}), 1.13);
-}
-
-/// The longest child of frames 20 to 59, of the best, where one child takes ten times as long as
-/// the others and times are up to a tenth off.
-double imbalanceWithASlowOne(const Spot& spot, std::size_t count, std::mt19937& random) {
-    std::uniform_real_distribution<double> off(.9, 1.1);
-    Balanced balanced = loadBalanced(static_cast<int>(count), "mode DB");
-    const double best = spot.total() / (static_cast<double>(count) - 1 + .1);
-    double sum = 0;
-    for (int frame = 0; frame < 60; ++frame) {
-        balanced.apply();
-        FrameTimes times{balanced.number, std::vector<CompoundTime>(count + 1)};
-        double longest = 0;
-        for (const std::size_t child : children(balanced)) {
-            const double time = spot(balanced.at(child)) * (child == 1 + count / 2 ? 10 : 1);
-            times.compounds[child].draw = time * off(random);
-            longest = std::max(longest, time);
-        }
-        balanced.equalizers.record(times);
-        sum += frame >= 20 ? longest / best : 0;
-    }
-    return sum / 40;
-}
-
-TEST(LoadEqualizer, SharesByHowSlowRenderersAre) {
-    std::mt19937 random(4);
-    std::vector<double> imbalances;
-    for (int run = 0; run < 5; ++run)
-        for (const auto& [mode, hot] : kCases)
-            for (std::size_t count = 3; mode == std::string("DB") && count <= 8; ++count)
-                imbalances.push_back(imbalanceWithASlowOne({hot}, count, random));
-    const double sum = std::accumulate(imbalances.begin(), imbalances.end(), 0.0);
-    EXPECT_LE(sum / static_cast<double>(imbalances.size()), 1.11);
-    EXPECT_LE(*std::ranges::max_element(imbalances), 2);
-    // 1.14 and 2.8 where all is put down to the place.
-}
-
-TEST(LoadEqualizer, DoesNotTakeTheSlownessOfARendererForItsPartsWhereTimesAreOffNowAndThen) {
-    constexpr int kRuns = 300;
-    int mistaken = 0;
-    for (int run = 0; run < kRuns; ++run) {
-        std::mt19937 random(static_cast<unsigned>(run));
-        std::exponential_distribution<double> late(1. / 20);
-        Balanced balanced = loadBalanced(3, "mode DB");
-        const auto share = [&](std::size_t child) {
-            return balanced.at(child).range.end - balanced.at(child).range.begin;
-        };
-        for (int frame = 0; frame < 20; ++frame) {
-            balanced.apply();
-            FrameTimes times{balanced.number, std::vector<CompoundTime>(4)};
-            for (const std::size_t child : children(balanced))
-                times.compounds[child].draw =
-                    share(child) * (child == 2 ? 10000 : 1000) + late(random);
-            balanced.equalizers.record(times);
-        }
-        mistaken += std::abs(share(1) - 10. / 21) > .04 || std::abs(share(2) - 1. / 21) > .03;
-    }
-    EXPECT_LE(mistaken, 3);  // 13 where all is put down to the place
 }
 
 TEST(LoadEqualizer, StartsWithEqualParts) {
@@ -302,7 +232,7 @@ TEST(LoadEqualizer, CutsWhatIsCoveredNotWhatIsEmpty) {
     times.compounds[2].covered = {0, 0, .1, 1};
     balanced.equalizers.record(times);
     balanced.apply();
-    EXPECT_NEAR(balanced.at(1).viewport.width, .25 + .25 * 20 / 30, .005);
+    EXPECT_NEAR(balanced.at(1).viewport.width, .25 + .25 * 20 / 30, .002);
 }
 
 TEST(LoadEqualizer, GivesNothingToAChannelThatIsGoneAndAShareWhenItIsBack) {

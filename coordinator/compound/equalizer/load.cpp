@@ -40,7 +40,6 @@ Load::Load(const config::Compound& written, std::size_t position, const Work& wo
       work_(work),
       children_(written, position, work),
       map_(mapFor(mode_)),
-      slowness_(children_.size()),
       tree_(children_.size()),
       destination_(children_.size()) {}
 
@@ -71,7 +70,6 @@ void Load::apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) {
     whole->rules.followsCourse = true;
     resources_ = resources(turn, settings);
     std::vector<double> shares = resources_;
-    for (std::size_t i = 0; i < shares.size(); ++i) shares[i] /= slowness_[i];
     charge(shares, destination_);
     const auto place = [&](const SplitTree::Wish& wish) {
         const double extent = wish.axis == Axis::X ? whole->width : whole->height;
@@ -101,8 +99,7 @@ void Load::charge(std::vector<double>& resources, std::size_t destination) const
     if (costs_.empty() || !(assembly_ > 0) || destination == resources.size() ||
         !(resources[destination] > 0))
         return;
-    double work = 0;
-    for (std::size_t i = 0; i < costs_.size(); ++i) work += costs_[i] / slowness_[i];
+    const double work = std::accumulate(costs_.begin(), costs_.end(), 0.0);
     const double all = std::accumulate(resources.begin(), resources.end(), 0.0);
     const double done = (work + assembly_ * resources[destination]) / all;
     if (done > 0)
@@ -116,7 +113,6 @@ void Load::record(const PlannedFrame& frame, const FrameTimes& times) {
     if (!costs || costs->size() != resources_.size())
         return;
     std::vector<LoadMap::Measured> measured;
-    std::vector<Slowness::Measured> taken;
     for (std::size_t i = 0; i < costs->size(); ++i) {
         LoadMap::Measured part{
             children_.part(i, frame, mode_), {}, std::max((*costs)[i], kLeastMilliseconds)};
@@ -127,10 +123,7 @@ void Load::record(const PlannedFrame& frame, const FrameTimes& times) {
             part.region = areaOf(config::part(frame.parts[children_[i]].viewport,
                                               work_.covered(children_[i], frame, times)));
         measured.push_back(part);
-        taken.push_back({i, part.load, map_.load(part.part)});
     }
-    slowness_.learn(taken);
-    for (std::size_t i = 0; i < measured.size(); ++i) measured[i].load /= slowness_[taken[i].child];
     map_.record(measured);
     costs_ = *costs;
     assembly_ = position_ < times.compounds.size()
