@@ -79,11 +79,34 @@ TEST(LoadEqualizer, IsNotThrownOffByTimesThatAreATenthOff) { expectWithin15Perce
 TEST(LoadEqualizer, ComesToRestWhereLoadRests) {
     for (const auto& [mode, hot] : kCases) {
         Balanced balanced = loadBalanced(7, std::string("mode ") + mode);
-        for (int frame = 0; frame < 25; ++frame) balanced.draw(Spot{hot});
+        for (int frame = 0; frame < 30; ++frame) balanced.draw(Spot{hot});
         const config::Configuration before = balanced.live;
         for (int frame = 0; frame < 10; ++frame) balanced.draw(Spot{hot});
         EXPECT_TRUE(balanced.live == before) << mode;
     }
+}
+
+/// The first frame's times are of loading, and tell nothing.
+TEST(LoadEqualizer, KnowsARendererThatIsTenTimesSlowerWithin20FramesHoweverTheyBegin) {
+    std::mt19937 random(7);
+    std::exponential_distribution<double> loading(.2);
+    for (const char* mode : {"mode DB", "mode 2D"})
+        for (int run = 0; run < 200; ++run) {
+            Balanced balanced = loadBalanced(3, mode);
+            balanced.draw([&](const auto&) { return loading(random); });
+            std::vector<double> milliseconds;
+            for (int frame = 0; frame < 30; ++frame) {
+                milliseconds = balanced.draw([&](const config::ResolvedCompound& part) {
+                    const double slowness = &part == &balanced.at(2) ? 10 : 1;
+                    return slowness * Spot{{0, 0, 1, 1}}(part);
+                });
+                if (frame < 20)
+                    continue;
+                // Equal times are 100 / (1 + 1/10 + 1).
+                ASSERT_NEAR(milliseconds[1], 100 / 2.1, 4) << mode << ", " << run << ", " << frame;
+                ASSERT_NEAR(milliseconds[2], 100 / 2.1, 20) << mode << ", " << run << ", " << frame;
+            }
+        }
 }
 
 TEST(LoadEqualizer, FollowsALoadThatMoves) {

@@ -17,18 +17,18 @@ constexpr double kLeastMilliseconds = .5;
 /// Of its resources, what a destination is left with however long it assembles.
 constexpr double kLeastOfDestination = .05;
 
-LoadMap mapFor(SplitMode mode) {
+LoadModel modelFor(SplitMode mode, std::size_t children) {
     switch (mode) {
         case SplitMode::Vertical:
-            return {512, 1};
+            return {512, 1, children};
         case SplitMode::Horizontal:
-            return {1, 512};
+            return {1, 512, children};
         case SplitMode::Db:
-            return {1024, 1};
+            return {1024, 1, children};
         case SplitMode::TwoD:
             break;
     }
-    return {96, 96};
+    return {96, 96, children};
 }
 
 Area areaOf(const config::Viewport& v) { return {v.x, v.y, v.x + v.width, v.y + v.height}; }
@@ -39,7 +39,7 @@ Load::Load(const config::Compound& written, std::size_t position, const Work& wo
     : position_(position),
       work_(work),
       children_(written, position, work),
-      map_(mapFor(mode_)),
+      model_(modelFor(mode_, children_.size())),
       tree_(children_.size()),
       destination_(children_.size()) {}
 
@@ -47,7 +47,7 @@ void Load::setMode(SplitMode mode) {
     if (mode == mode_)
         return;
     mode_ = mode;
-    map_ = mapFor(mode);
+    model_ = modelFor(mode, children_.size());
     tree_ = SplitTree(children_.size());
     costs_.clear();
 }
@@ -70,12 +70,13 @@ void Load::apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) {
     whole->rules.followsCourse = true;
     resources_ = resources(turn, settings);
     std::vector<double> shares = resources_;
+    for (std::size_t i = 0; i < shares.size(); ++i) shares[i] /= model_.slowness(i);
     charge(shares, destination_);
     const auto place = [&](const SplitTree::Wish& wish) {
         const double extent = wish.axis == Axis::X ? whole->width : whole->height;
         const double middle = wish.area.begin(wish.axis) + wish.area.length(wish.axis) / 2;
-        return extent * map_.cut(shareOf(wish.area, *whole), wish.axis, wish.share,
-                                 wish.before.value_or(middle) / extent);
+        return extent * model_.map().cut(shareOf(wish.area, *whole), wish.axis, wish.share,
+                                         wish.before.value_or(middle) / extent);
     };
     children_.give(turn, mode_, whole->width, whole->height,
                    tree_.split(whole->width, whole->height, whole->rules, shares, place));
@@ -99,7 +100,8 @@ void Load::charge(std::vector<double>& resources, std::size_t destination) const
     if (costs_.empty() || !(assembly_ > 0) || destination == resources.size() ||
         !(resources[destination] > 0))
         return;
-    const double work = std::accumulate(costs_.begin(), costs_.end(), 0.0);
+    double work = 0;
+    for (std::size_t i = 0; i < costs_.size(); ++i) work += costs_[i] / model_.slowness(i);
     const double all = std::accumulate(resources.begin(), resources.end(), 0.0);
     const double done = (work + assembly_ * resources[destination]) / all;
     if (done > 0)
@@ -112,10 +114,10 @@ void Load::record(const PlannedFrame& frame, const FrameTimes& times) {
     const auto costs = children_.costs(frame, times);
     if (!costs || costs->size() != resources_.size())
         return;
-    std::vector<LoadMap::Measured> measured;
+    std::vector<LoadModel::Measured> measured;
     for (std::size_t i = 0; i < costs->size(); ++i) {
-        LoadMap::Measured part{
-            children_.part(i, frame, mode_), {}, std::max((*costs)[i], kLeastMilliseconds)};
+        LoadModel::Measured part{
+            i, children_.part(i, frame, mode_), {}, std::max((*costs)[i], kLeastMilliseconds)};
         if (part.part.isEmpty())
             continue;
         part.region = part.part;
@@ -124,7 +126,7 @@ void Load::record(const PlannedFrame& frame, const FrameTimes& times) {
                                               work_.covered(children_[i], frame, times)));
         measured.push_back(part);
     }
-    map_.record(measured);
+    model_.record(measured);
     costs_ = *costs;
     assembly_ = position_ < times.compounds.size()
                     ? known(times.compounds[position_].assemble).value_or(0)

@@ -5,16 +5,17 @@
 
 #include "coordinator/compound/equalizer/balancer.h"
 #include "coordinator/compound/equalizer/children.h"
-#include "coordinator/compound/equalizer/load_map.h"
+#include "coordinator/compound/equalizer/load_model.h"
 
 namespace eyrie::equalizer {
 
 /// Shares out a compound's picture (2D, HORIZONTAL, VERTICAL) or range (DB) between its children so
 /// that all take equally long: the load equalizer of Equalizer (Eilemann, Makhinya, Pajarola 2009).
 ///
-/// From frames of which all times are known it learns where the load lies (LoadMap) and moves the
-/// cuts of a SplitTree so that each side has of it what it has of the resources. What a destination
-/// assembles, as far as its renderer tells, is charged to the child that draws on its channel.
+/// From frames of which all times are known it learns where the load lies and who is slow
+/// (LoadModel) and moves the cuts of a SplitTree so that each side has of the load what it has of
+/// the resources. What a destination assembles, as far as its renderer tells, is charged to the
+/// child that draws on its channel.
 /// Times within a twentieth of each other are left alone: moving a cut costs, because what lies
 /// there has to be loaded by another renderer. A cut whose place moves frame after frame, as where
 /// the camera turns, goes ahead of it.
@@ -38,7 +39,7 @@ private:
     const Work& work_;
     const Children children_;
     config::SplitMode mode_ = config::SplitMode::TwoD;
-    LoadMap map_;
+    LoadModel model_;
     SplitTree tree_;
     std::vector<double> resources_;  ///< of the last frame planned, by child
     std::vector<double> costs_;      ///< of the last frame recorded, by child; empty: none yet
