@@ -174,9 +174,9 @@ void addImportTerrain(CLI::App& parent, Run& run) {
     addCommonOptions(*command, *options);
     command
         ->add_option("--error", options->errorMetres,
-                     "Metres that the finest level may be off. Without it, or with less than that, "
-                     "it is as exact as its heights are stored; 1 saves much where posts are "
-                     "close and noisy")
+                     "Metres that heights of the finest level may be off; outlines of nodata stay "
+                     "as they are. Without it, or with less than that, it is as exact as its "
+                     "heights are stored; 1 saves much where posts are close and noisy")
         ->type_name("METRES")
         ->check(CLI::Range(1e-6, 1e6));
     command

@@ -44,7 +44,7 @@ struct TerrainImportOptions {
     std::uint64_t memoryBytes = std::uint64_t{512} << 20;
     /// Folder for the scratch file; empty: that of the output.
     std::string scratchFolder = {};
-    /// What level 0 may leave out; none: nothing that its lattice of heights can tell.
+    /// What heights of level 0 may be off; none: nothing that its lattice of heights can tell.
     std::optional<double> errorMetres = {};
     std::vector<std::string> imagery = {};  ///< pictures to lay over it, see openImagery
     bool startsOver = false;                ///< ignores what an interrupted import left

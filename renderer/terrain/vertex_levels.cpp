@@ -60,18 +60,23 @@ int VertexLevels::exceededByTriangle(SourceSurface& surface, const Point& p, con
     };
     const Triangle triangle = {corner(apex), corner(p), corner(q)};
     const auto isInside = [&](const Point& at) { return at.i < columns_ && at.j < rows_; };
+    const bool isAligned = isInside(p) && isInside(apex) && isInside(q);
     double deviation = goal.floor;
-    if (isInside(p) && isInside(apex) && isInside(q)) {
+    if (isAligned) {
         deviation = surface.ofAligned(triangle, goal);
     } else {
         const auto pastColumns = [&](const Corner& c) { return c.i == columns_ - 1; };
         const auto pastRows = [&](const Corner& c) { return c.j == rows_ - 1; };
         const bool isSqueezed = std::all_of(triangle.begin(), triangle.end(), pastColumns) ||
                                 std::all_of(triangle.begin(), triangle.end(), pastRows);
-        if (!isSqueezed)
-            deviation = surface.ofGeneral(triangle, goal);
+        if (isSqueezed)
+            return known;
+        deviation = surface.ofGeneral(triangle, goal);
     }
-    return deviation > goal.floor ? scale_.exceededBy(deviation) : known;
+    if (deviation > goal.floor)
+        return scale_.exceededBy(deviation);
+    // What level 0 may leave out is told of heights: ground narrower than that does not vanish.
+    return known == 0 && surface.hasNodata() && surface.mixes(triangle, isAligned) ? 1 : known;
 }
 
 /// Thresholds exceeded by the two triangles that vertex (i, j) of spacing s splits, of which one

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/import/dem_source.h"
+#include "renderer/import/height_source.h"
 
 namespace eyrie::test {
 
@@ -64,9 +65,11 @@ std::string contents(const std::string& path) {
 }
 
 std::shared_ptr<const terrain::EytFile> imported(const terrain::HeightGrid& grid,
-                                                 const TemporaryFolder& folder) {
+                                                 const TemporaryFolder& folder,
+                                                 const import::TerrainImportOptions& options) {
     const std::string path = folder.path("terrain.eyt");
-    const auto report = import::importTerrain(grid, {"grid", "", 0}, path, {});
+    import::GridHeightSource posts(grid);
+    const auto report = import::importTerrain(posts, {"grid", "", 0}, path, options, {});
     EXPECT_TRUE(report.ok()) << report.status();
     if (!report.ok())
         return nullptr;

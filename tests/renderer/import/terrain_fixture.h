@@ -44,7 +44,8 @@ std::string contents(const std::string& path);
 
 /// Writes `grid` as an .eyt in `folder` and opens it. Fails the test, and returns null, on errors.
 std::shared_ptr<const terrain::EytFile> imported(const terrain::HeightGrid& grid,
-                                                 const TemporaryFolder& folder);
+                                                 const TemporaryFolder& folder,
+                                                 const import::TerrainImportOptions& options = {});
 
 /// A corner as it is drawn: a post and its height step, decoded from the file.
 struct DrawnCorner {

@@ -32,6 +32,13 @@ Hole rectangle(std::int32_t i0, std::int32_t j0, std::int32_t i1, std::int32_t j
     return hole;
 }
 
+Hole allButColumns(std::int32_t i0, std::int32_t i1) {
+    Hole hole = rectangle(0, 0, i0 - 1, 139);
+    const Hole right = rectangle(i1 + 1, 0, 299, 139);
+    hole.insert(hole.end(), right.begin(), right.end());
+    return hole;
+}
+
 std::vector<DrawnTriangle> drawnLevel(const terrain::EytFile& file, int level) {
     std::vector<DrawnTriangle> all;
     for (std::int32_t y = 0; y < file.index().quadtree.tilesY(level); ++y)
@@ -70,6 +77,20 @@ TEST_P(TerrainNodata, IsAHoleAndNothingMoreAtFullResolution) {
         EXPECT_EQ(area, dataArea(grid)) << "level " << level;
     }
     EXPECT_LE(file->index().finestErrorMetres(), file->index().heightStepMetres());
+}
+
+/// However wide what triangles of ground may leave out: an outline is no height.
+TEST_P(TerrainNodata, IsAHoleAndNothingMoreAtTheFinestLevelWhateverItMayLeaveOut) {
+    const test::TemporaryFolder folder;
+    const HeightGrid grid = gridWithHole(GetParam().second);
+    const auto file = test::imported(grid, folder, {.errorMetres = 1000});
+    ASSERT_NE(file, nullptr);
+    std::int64_t area = 0;
+    for (const DrawnTriangle& triangle : drawnLevel(*file, 0)) area += test::doubleArea(triangle);
+    EXPECT_EQ(area, dataArea(grid));
+    for (std::int32_t y = 0; y < file->index().quadtree.tilesY(0); ++y)
+        for (std::int32_t x = 0; x < file->index().quadtree.tilesX(0); ++x)
+            EXPECT_EQ(file->index().tile({0, x, y}).outlineMetres, 0) << x << " " << y;
 }
 
 TEST_P(TerrainNodata, IsNeverDrawnAsAHeight) {
@@ -138,6 +159,7 @@ INSTANTIATE_TEST_SUITE_P(Holes, TerrainNodata,
                                          std::pair{"rowOnABorder", rectangle(0, 128, 299, 128)},
                                          std::pair{"columnOnABorder", rectangle(128, 0, 128, 139)},
                                          std::pair{"tiles", rectangle(30, 20, 180, 100)},
+                                         std::pair{"allButAStrip", allButColumns(77, 78)},
                                          std::pair{"lastColumn", rectangle(299, 0, 299, 139)}),
                          [](const auto& tested) { return std::string(tested.param.first); });
 
