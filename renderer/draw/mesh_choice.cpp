@@ -24,7 +24,7 @@ struct NodeTree {
     double errorMetres(Node node) const {
         const mesh::Node& at = file.nodes()[node];
         if (at.isOfPoints() && mayBePoints)
-            return std::max(at.errorMetres * std::max(tauPixels / kMostPointPixels, 1.0),
+            return std::max(at.errorMetres * std::max(tauPixels / kMostPointPixels, 2.0),
                             double{at.farthestMetres()});
         return at.indexCount > 0 ? at.farthestMetres() : std::numeric_limits<double>::infinity();
     }

@@ -54,14 +54,16 @@ private:
     MeshCut cut_;
 };
 
-/// A pixel may show a point at the end of its reach, whose colour is from at the end of its own.
+/// A pixel may show a point at the end of its reach, which is as far from the source as the sample
+/// is at most, and whose colour is from at the end of its own reach.
 CutNode CutMaker::pointNode(std::uint32_t index, int level, double errorMetres,
                             std::uint32_t points) const {
     const fabric::Box box = file_.bounds(index);
     const double reach = file_.nodes()[index].colourReachMetres();
-    const double apart = view_.screenSpaceErrorPixels(errorMetres, box) + kPointRounding;
-    const double off = reach > 0 ? view_.screenSpaceErrorPixels(errorMetres + reach, box) : 0;
-    return {index, level, std::max(apart, off + kPointRounding), points, apart};
+    const double off = view_.screenSpaceErrorPixels(errorMetres, box);
+    const double ofColour = reach > 0 ? view_.screenSpaceErrorPixels(errorMetres + reach, box) : 0;
+    return {index, level, std::max(2 * off, ofColour) + kPointRounding, points,
+            off + kPointRounding};
 }
 
 /// The node drawn as no more of its points than are enough; nothing where these leave gaps.

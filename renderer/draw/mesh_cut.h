@@ -11,8 +11,9 @@
 namespace eyrie::draw {
 
 /// Points are drawn for a node where each point of its surface has one within this, in pixels of
-/// the view, and within tau; each then draws the pixels of which the middle is as near. So no pixel
-/// of the surface is missed, and none is drawn that is farther from it.
+/// the view, and within half of tau; each then draws the pixels of which the middle is as near. So
+/// no pixel of the surface is missed, and as the points themselves are as near to the source as
+/// that, none is drawn that is farther from it than twice as much.
 inline constexpr double kMostPointPixels = 0.25;
 /// Added to what points are apart, for what rounding to a device's subpixels moves: 1/512 pixel
 /// each way, of up to three of the view's pixels.
