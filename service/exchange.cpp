@@ -34,9 +34,9 @@ absl::Status Exchange::start(fabric::ChannelProgram program, Clock::time_point d
                              std::stop_token stop, Done done) {
     const std::lock_guard lock(mutex_);
     joinEnded();
-    if (running_.size() >= kMaxPrograms)
+    if (running_.size() >= fabric::kMaxPrograms)
         return absl::ResourceExhaustedError(
-            fmt::format("{} channel programs are running already", kMaxPrograms));
+            fmt::format("{} channel programs are running already", fabric::kMaxPrograms));
     RETURN_IF_ERROR(announceInputs(program));
     Running& running = running_.emplace_back();
     running.thread = std::thread([this, &running, program = std::move(program), deadline,

@@ -26,8 +26,6 @@ public:
     using Clock = std::chrono::steady_clock;
     using Done = std::function<void(absl::StatusOr<fabric::ProgramResult>)>;
 
-    static constexpr std::size_t kMaxPrograms = 16;
-
     /// `thread` and `frameData` outlive the exchange.
     /// `security` is how this renderer shows itself to the others.
     Exchange(GlThread& thread, const FrameDataHistory& frameData,
@@ -39,7 +37,8 @@ public:
     Exchange& operator=(const Exchange&) = delete;
 
     /// Announces the program's inputs and begins it; `done` is called once, on its thread, unless
-    /// this fails: ResourceExhausted when kMaxPrograms are running, what Mailbox::announce says.
+    /// this fails: ResourceExhausted when fabric::kMaxPrograms are running, what Mailbox::announce
+    /// says.
     absl::Status start(fabric::ChannelProgram program, Clock::time_point deadline,
                        std::stop_token stop, Done done);
 

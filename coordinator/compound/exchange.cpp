@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <set>
 #include <utility>
 
 namespace eyrie::compound {
@@ -53,6 +54,7 @@ struct Draft {
     std::size_t framebuffer = 0;
     PlannedProgram planned;
     bool isBegun = false;
+    std::set<std::size_t> taken;  ///< frames
 
     fabric::ProgramStage& stage() {
         if (planned.program.stages.empty())
@@ -69,7 +71,8 @@ public:
           frameNumber_(frameNumber),
           division_(plan),
           programOf_(plan.framebuffers.size(), kNowhere),
-          takers_(plan.frames) {}
+          takers_(plan.frames),
+          hasDepth_(plan.frames, false) {}
 
     std::optional<Exchange> divide() {
         findTakers();
@@ -89,11 +92,17 @@ public:
     }
 
 private:
+    /// Who assembles a frame, and how much of it.
+    struct Taker {
+        std::optional<std::size_t> framebuffer;  ///< of a program; none: here
+        fabric::PixelViewport part;
+    };
     void findTakers() {
         for (std::size_t i = 0; i < plan_.steps.size(); ++i)
             if (const auto* const step = std::get_if<Assemble>(&plan_.steps[i]))
                 takers_[step->frame].push_back(
-                    division_.isInProgram(i) ? std::optional(step->framebuffer) : std::nullopt);
+                    {division_.isInProgram(i) ? std::optional(step->framebuffer) : std::nullopt,
+                     step->part});
     }
 
     Draft& draftOf(std::size_t framebuffer) {
@@ -132,19 +141,22 @@ private:
             return false;
         fabric::ChannelProgram& program = draft.planned.program;
         program.hasDepth = program.hasDepth || step.withDepth;
-        for (const auto& taker : takers_[step.frame]) {
+        hasDepth_[step.frame] = step.withDepth;
+        for (const auto& [taker, wanted] : takers_[step.frame]) {
             if (taker == step.framebuffer)
                 return false;
+            const fabric::PixelViewport part =
+                taker ? fabric::intersection(step.part, wanted) : step.part;
             draft.stage().outputs.push_back(
-                {static_cast<std::uint32_t>(step.frame), step.part, step.withDepth, ""});
+                {static_cast<std::uint32_t>(step.frame), part, step.withDepth, ""});
             std::optional<std::size_t> reader;
             if (taker) {
                 draftOf(*taker);
                 reader = programOf_[*taker];
                 isExchanged_ = true;
             } else {
-                answers_.push_back({programOf_[step.framebuffer], step.frame, step.part,
-                                    step.withDepth, kNowhere});
+                answers_.push_back(
+                    {programOf_[step.framebuffer], step.frame, part, step.withDepth, kNowhere});
             }
             drafts_[programOf_[step.framebuffer]].planned.takers.push_back(reader);
         }
@@ -156,9 +168,11 @@ private:
             return false;
         Draft& draft = draftOf(step.framebuffer);
         draft.isBegun = true;
+        if (!draft.taken.insert(step.frame).second)
+            return false;
         const Merge merge = mergeOf(step.combine);
         fabric::ChannelProgram& program = draft.planned.program;
-        program.hasDepth = program.hasDepth || merge != Merge::Paste;
+        program.hasDepth = program.hasDepth || merge != Merge::Paste || hasDepth_[step.frame];
         fabric::ProgramStage& stage = draft.stage().outputs.empty() ? draft.stage() : draft.next();
         stage.inputs.push_back({static_cast<std::uint32_t>(step.frame), step.part, merge});
         return true;
@@ -244,9 +258,10 @@ private:
     const Plan& plan_;
     const std::uint64_t frameNumber_;
     const Division division_;
-    std::vector<std::size_t> programOf_;                           ///< of framebuffers
-    std::vector<std::vector<std::optional<std::size_t>>> takers_;  ///< of frames; none: here
-    std::deque<Draft> drafts_;                                     ///< stay where they are
+    std::vector<std::size_t> programOf_;      ///< of framebuffers
+    std::vector<std::vector<Taker>> takers_;  ///< of frames
+    std::vector<bool> hasDepth_;              ///< of frames
+    std::deque<Draft> drafts_;                ///< stay where they are
     std::vector<Answer> answers_;
     bool isExchanged_ = false;
     Exchange exchange_;

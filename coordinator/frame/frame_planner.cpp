@@ -32,6 +32,14 @@ std::size_t positionOf(const std::string& id, const Members& members) {
     return static_cast<std::size_t>(found - members.begin());
 }
 
+/// Whether the programs of two frames, which may be under way, are more than a renderer runs.
+bool areTooMany(const std::vector<std::size_t>& renderers) {
+    return std::ranges::any_of(renderers, [&](std::size_t each) {
+        return 2 * std::ranges::count(renderers, each) >
+               static_cast<std::ptrdiff_t>(fabric::kMaxPrograms);
+    });
+}
+
 /// Between renderers of their own.
 std::optional<PlannedFrame::ByPrograms> byPrograms(const PlannedFrame& frame) {
     std::optional<compound::Exchange> exchange = compound::exchangeOf(frame.plan, frame.number);
@@ -42,7 +50,8 @@ std::optional<PlannedFrame::ByPrograms> byPrograms(const PlannedFrame& frame) {
         programs.renderers.push_back(
             positionOf(frame.configuration->rendererFor(each.channel), frame.members));
     if (std::ranges::adjacent_find(programs.renderers, std::ranges::not_equal_to()) ==
-        programs.renderers.end())
+            programs.renderers.end() ||
+        areTooMany(programs.renderers))
         return std::nullopt;
     programs.others = exchange->rest;
     programs.others.draws.resize(exchange->draws.size());

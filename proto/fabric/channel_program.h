@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,6 +13,9 @@
 #include "fabric/viewport.h"
 
 namespace eyrie::fabric {
+
+/// A renderer runs as many at a time, and refuses more.
+inline constexpr std::size_t kMaxPrograms = 16;
 
 /// How a picture joins what a framebuffer holds.
 enum class Merge {

@@ -57,8 +57,12 @@ std::vector<fabric::Image> answersOf(const Exchange& exchange, const LayeredScen
                                program.hasDepth && stage.draw->wantsDepth
                                    ? fabric::Merge::DepthBehind
                                    : fabric::Merge::Paste);
-            for (const fabric::ProgramInput& input : stage.inputs)
-                run.buffer.put(mail.at({p, input.frame}), input.area, input.merge);
+            for (const fabric::ProgramInput& input : stage.inputs) {
+                fabric::Image& image = mail.at({p, input.frame});
+                EXPECT_TRUE(image.area.isEmpty() || input.area.contains(image.area))
+                    << "more comes than was announced";
+                run.buffer.put(image, input.area, input.merge);
+            }
             for (const fabric::ProgramOutput& output : stage.outputs) {
                 fabric::Image part = run.buffer.part(output.area, output.withDepth);
                 const auto& taker = exchange.programs[p].takers.at(run.output++);
@@ -130,6 +134,72 @@ TEST(Compose, DirectSendAndBinarySwapAreExchanged) {
             differingPixels(got[0], pictures(config::oneChannel(configuration), request, scene)[0]),
             0);
     }
+}
+
+/// Three channels, and a compound on the first's picture with what is written here.
+config::Configuration ofThree(const std::string& compounds) {
+    config::Findings findings;
+    std::string text = "server { config { appNode {";
+    for (const char* name : {"a", "b", "c"})
+        text += std::string("pipe { window { viewport [ 0 0 41 23 ] channel { name \"") + name +
+                "\" } } }\n";
+    text +=
+        "} observer {} layout { view { observer 0 } }\n"
+        "canvas { layout 0 segment { channel \"a\" } }\n"
+        "compound { channel ( canvas 0 segment 0 layout 0 view 0 ) buffer [ COLOR DEPTH ]\n"
+        "task [ CLEAR ASSEMBLE ]\n" +
+        compounds + "} } }";
+    config::Configuration configuration = config::readEqc(text, findings);
+    EXPECT_FALSE(findings.hasErrors()) << config::describe(findings, "the test's");
+    return configuration;
+}
+
+void expectExchangedLikePutTogetherHere(const config::Configuration& configuration) {
+    const LayeredScene scene(3, 41, 23, 30);
+    const PlanRequest request = wholeCanvas();
+    const auto plan = makePlan(configuration, request);
+    ASSERT_TRUE(plan.ok()) << plan.status();
+    const auto exchange = exchangeOf(*plan, 0);
+    ASSERT_TRUE(exchange.has_value());
+    const auto got = picturesByPrograms(*exchange, scene);
+    ASSERT_EQ(got.size(), 1U);
+    EXPECT_EQ(differingPixels(got[0], pictures(configuration, request, scene)[0]), 0);
+}
+
+/// The coordinator compares depths with what the first channel's program has only passed on.
+TEST(Compose, DepthStaysWithWhatAProgramHasOnlyTaken) {
+    expectExchangedLikePutTogetherHere(ofThree(R"(
+        compound { channel "b" range [ 0 .5 ] outputframe { name "x" } }
+        compound { task [ CLEAR ASSEMBLE READBACK ] inputframe { name "x" }
+                   outputframe { name "t" buffer [ COLOR ] viewport [ 0 0 .1 1 ] } }
+        compound { channel "c"
+                   compound { range [ .5 1 ] outputframe { name "y" } } inputframe { name "t" }
+                   outputframe { name "z" buffer [ COLOR ] viewport [ 0 0 .1 1 ] } }
+        inputframe { name "y" } inputframe { name "z" })"));
+}
+
+TEST(Compose, EachThatTakesAFrameIsSentWhatItTakes) {
+    expectExchangedLikePutTogetherHere(ofThree(R"(
+        compound { channel "a" range [ 0 .34 ] outputframe { name "p1" } }
+        compound { channel "b" compound { range [ .34 .67 ] outputframe { name "p2" } }
+                   inputframe { name "p1" } inputframe { name "p3" }
+                   outputframe { name "s2" viewport [ 0 0 1 .5 ] } }
+        compound { channel "c" compound { range [ .67 1 ] outputframe { name "p3" } }
+                   inputframe { name "p1" } inputframe { name "p2" }
+                   outputframe { name "s3" viewport [ 0 .5 1 .5 ] } }
+        inputframe { name "s2" } inputframe { name "s3" })"));
+}
+
+/// No two inputs of a program are the same frame.
+TEST(Compose, AFrameThatIsTakenTwiceIsPutTogetherHere) {
+    const auto plan = makePlan(ofThree(R"(
+        compound { channel "c" range [ 0 .5 ] outputframe { name "x" } }
+        compound { channel "b" compound { range [ .5 1 ] }
+                   inputframe { name "x" } inputframe { name "x" } outputframe { name "s" } }
+        inputframe { name "s" })"),
+                               wholeCanvas());
+    ASSERT_TRUE(plan.ok()) << plan.status();
+    EXPECT_FALSE(exchangeOf(*plan, 0).has_value());
 }
 
 }  // namespace

@@ -402,7 +402,7 @@ TEST_F(PutFrameTest, ProgramsAreRefusedByFieldAndBounded) {
     EXPECT_TRUE(absl::IsInvalidArgument(status));
     EXPECT_THAT(messageOf(status), HasSubstr("program.stages[0]: area is 100x24"));
     std::vector<std::jthread> waiting;
-    for (std::uint64_t i = 0; i < Exchange::kMaxPrograms; ++i)
+    for (std::uint64_t i = 0; i < fabric::kMaxPrograms; ++i)
         waiting.emplace_back([this, i] {
             while (absl::IsResourceExhausted(
                 renderer(0).runProgram(awaiting(100 + i), soon()).status())) {
