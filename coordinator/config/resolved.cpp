@@ -352,7 +352,8 @@ private:
                               "view's, as in channel ( canvas 0 segment 0 layout 0 view 0 )");
     }
 
-    /// Names count within one tree; of several output frames with one name at one time, the first.
+    /// Names count within one tree; of several output frames with one name at one time, the first
+    /// that is read back.
     void matchFrames(std::size_t first) {
         const auto tree = std::span(resolved_.compounds).subspan(first);
         for (ResolvedCompound& compound : tree)
@@ -378,8 +379,9 @@ private:
 
     void addOutput(const ResolvedCompound& compound, ResolvedFrame& frame) {
         std::vector<Output>& others = outputs_[frame.name];
-        const bool isTaken = std::ranges::any_of(
-            others, [&](const Output& other) { return meet(*other.compound, compound); });
+        const bool isTaken = std::ranges::any_of(others, [&](const Output& other) {
+            return other.compound->tasks.readback && meet(*other.compound, compound);
+        });
         if (isTaken)
             findings_.warning(frame.frame->place,
                               fmt::format("another outputframe is named \"{}\" already; this one "

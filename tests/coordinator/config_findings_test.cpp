@@ -297,6 +297,25 @@ TEST(EqcWarnings, NameFramesThatTheTasksLeaveOut) {
         "f:2:45: warning: the compound's task has no READBACK: the outputframe stays empty\n");
 }
 
+TEST(EqcWarnings, SayWhichOutputFramesHaveANameThatAnotherHas) {
+    const auto found = [](const std::string& first) {
+        return describe(Read(withCompounds("compound { channel ( segment 0 view 0 )\n compound { "
+                                           "channel \"b\" " +
+                                           first +
+                                           " outputframe { name \"f\" } }\n compound { channel "
+                                           "\"b\" outputframe { name \"f\" } }\n inputframe { "
+                                           "name \"f\" } }"))
+                            .findings,
+                        "f");
+    };
+    EXPECT_EQ(found(""),
+              "f:3:25: warning: another outputframe is named \"f\" already; this one has no "
+              "effect\n");
+    EXPECT_EQ(
+        found("task [ CLEAR DRAW ]"),
+        "f:2:45: warning: the compound's task has no READBACK: the outputframe stays empty\n");
+}
+
 TEST(EqcWarnings, SayInWhichFramesNothingIsDrawn) {
     const auto found = [](const std::string& children) {
         return describe(
