@@ -15,6 +15,7 @@
 #include "coordinator/config/queue_names.h"
 #include "coordinator/config/torn_pictures.h"
 #include "coordinator/config/unseen.h"
+#include "coordinator/config/unshown.h"
 
 namespace eyrie::config {
 namespace {
@@ -74,9 +75,10 @@ public:
         for (const Compound& root : configuration_.compounds) {
             const std::size_t first = resolved_.compounds.size();
             visit(root, nullptr);
-            matchFrames(first);
-            warnOfUnshown(root, first);
             const auto tree = std::span(resolved_.compounds).subspan(first);
+            if (isShown(tree))
+                matchFrames(tree);
+            warnOfUnshown(tree, findings_);
             warnOfQueueNames(tree, findings_);
             warnOfLostDepth(tree, findings_);
             warnOfTornPictures(tree, findings_);
@@ -341,33 +343,13 @@ private:
         add(own.eyes.right, Eye::Right, places.right);
     }
 
-    /// Of a tree that only draws into channels, as files of Equalizer 1.0 do, where views show
-    /// others.
-    void warnOfUnshown(const Compound& root, std::size_t first) {
-        const auto tree = std::span(resolved_.compounds).subspan(first);
-        if (std::ranges::none_of(
-                tree, [](const ResolvedCompound& each) { return each.destination.has_value(); }))
-            findings_.warning(root.place,
-                              "nothing of this compound tree is shown: none of its channels is a "
-                              "view's, as in channel ( canvas 0 segment 0 layout 0 view 0 )");
-    }
-
     /// Names count within one tree; of several output frames with one name at one time, the first
-    /// that is read back.
-    void matchFrames(std::size_t first) {
-        const auto tree = std::span(resolved_.compounds).subspan(first);
+    /// that is read back. Those of compounds outside every picture count for nothing.
+    void matchFrames(std::span<ResolvedCompound> tree) {
         for (ResolvedCompound& compound : tree)
             for (ResolvedFrame& frame : compound.outputFrames) addOutput(compound, frame);
         for (ResolvedCompound& compound : tree)
-            for (ResolvedFrame& frame : compound.inputFrames) {
-                for (const Output& output : outputs_[frame.name])
-                    frame.isMatched = output.frame->isMatched = true;
-                if (!frame.isMatched)
-                    findings_.warning(frame.frame->place,
-                                      fmt::format("no outputframe of this compound tree is named "
-                                                  "\"{}\"",
-                                                  frame.name));
-            }
+            for (ResolvedFrame& frame : compound.inputFrames) takeOutputs(compound, frame);
         for (const Output& output : inOrder_)
             if (!output.frame->isMatched)
                 findings_.warning(
@@ -377,7 +359,27 @@ private:
         inOrder_.clear();
     }
 
+    void takeOutputs(const ResolvedCompound& compound, ResolvedFrame& frame) {
+        if (!compound.destination)
+            return warnOfOutside(frame, "the inputframe has no effect");
+        for (const Output& output : outputs_[frame.name])
+            frame.isMatched = output.frame->isMatched = true;
+        if (!frame.isMatched)
+            findings_.warning(
+                frame.frame->place,
+                fmt::format("no outputframe of this compound tree is named \"{}\"", frame.name));
+    }
+
+    void warnOfOutside(const ResolvedFrame& frame, std::string_view what) {
+        findings_.warning(frame.frame->place,
+                          fmt::format("{}: its compound is no part of a view's picture, as with "
+                                      "channel ( segment 0 view 0 )",
+                                      what));
+    }
+
     void addOutput(const ResolvedCompound& compound, ResolvedFrame& frame) {
+        if (!compound.destination)
+            return warnOfOutside(frame, "the outputframe stays empty");
         std::vector<Output>& others = outputs_[frame.name];
         const bool isTaken = std::ranges::any_of(others, [&](const Output& other) {
             return other.compound->tasks.readback && meet(*other.compound, compound);

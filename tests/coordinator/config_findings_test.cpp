@@ -109,7 +109,8 @@ TEST(EqcErrors, AreEyesThatAreNotBeforeTheirWall) {
 }
 
 TEST(EqcWarnings, SayWhatHasNoEffect) {
-    const Read read(withCompounds("nonsense 5 compound { inputframe { name \"x\" } }"));
+    const Read read(withCompounds(
+        "nonsense 5 compound { channel ( segment 0 view 0 ) inputframe { name \"x\" } }"));
     EXPECT_FALSE(read.findings.hasErrors());
     const std::string text = describe(read.findings, "f");
     EXPECT_THAT(text, HasSubstr("'nonsense' means nothing in a config"));
@@ -144,6 +145,34 @@ TEST(EqcWarnings, SayWhatShowsNothing) {
     EXPECT_EQ(found(withCompounds("compound { channel \"a\" compound { channel \"b\" } }")),
               "f:1:204: warning: nothing of this compound tree is shown: none of its channels is a "
               "view's, as in channel ( canvas 0 segment 0 layout 0 view 0 )\n");
+}
+
+TEST(EqcWarnings, SayWhatIsOutsideEveryViewsPictureBesideWhatIsInOne) {
+    const auto found = [](const std::string& outside) {
+        return describe(
+            Read(withCompounds("compound {\n " + outside +
+                               "\n compound { channel ( segment 0 view 0 ) task [ CLEAR ASSEMBLE ]"
+                               "\ninputframe { name \"f\" } } }"))
+                .findings,
+            "f");
+    };
+    const std::string unshown =
+        "warning: nothing of this compound tree is shown: none of its channels is a view's, as in "
+        "channel ( canvas 0 segment 0 layout 0 view 0 )\n";
+    const std::string stays =
+        "warning: the outputframe stays empty: its compound is no part of a view's picture, as "
+        "with channel ( segment 0 view 0 )\n";
+    const std::string noFrame =
+        "f:4:1: warning: no outputframe of this compound tree is named \"f\"\n";
+    EXPECT_EQ(found("compound { channel \"b\" wall {} outputframe { name \"f\" } }"),
+              "f:2:33: " + stays + noFrame + "f:2:2: " + unshown);
+    EXPECT_EQ(found("compound { outputframe { name \"f\" } compound { channel \"b\" } }"),
+              "f:2:13: " + stays + noFrame + "f:2:2: " + unshown);
+    EXPECT_EQ(found("outputframe { name \"f\" }"), "f:2:2: " + stays + noFrame);
+    EXPECT_EQ(found("compound { channel ( segment 0 view 0 ) outputframe { name \"f\" } }\n"
+                    "compound { channel \"b\" task [ ASSEMBLE ] inputframe { name \"f\" } }"),
+              "f:3:42: warning: the inputframe has no effect: its compound is no part of a view's "
+              "picture, as with channel ( segment 0 view 0 )\n");
 }
 
 /// Every setting of a configuration, wherever it stands.
