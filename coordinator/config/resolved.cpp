@@ -138,10 +138,21 @@ private:
         own.channel = found->channel;
         if (own.destination)
             return;  // within the picture of one destination another's channel is a helper
-        own.destination = static_cast<std::size_t>(found - resolved_.destinations.begin());
+        takePicture(static_cast<std::size_t>(found - resolved_.destinations.begin()), own);
         served_[*own.destination] = true;
-        own.pixelViewport = found->pixelViewport;
-        own.area = {0, 0, found->pixelViewport.width, found->pixelViewport.height};
+    }
+
+    /// All of a destination's picture, whatever compounds above it say.
+    void takePicture(std::size_t destination, ResolvedCompound& own) const {
+        const Destination& shown = resolved_.destinations[destination];
+        own.destination = destination;
+        own.channel = shown.channel;
+        own.pixelViewport = shown.pixelViewport;
+        own.regriddings.clear();
+        own.area = {0, 0, shown.pixelViewport.width, shown.pixelViewport.height};
+        own.viewport = {};
+        own.pixel = {};
+        own.zoom = {1, 1};
     }
 
     void inherit(const Compound& compound, ResolvedCompound& own, bool isPartOfPicture) {
@@ -167,6 +178,8 @@ private:
         if (own.destination && !isPartOfPicture)
             own.eyes = both(own.eyes, resolved_.destinations[*own.destination].eyes);
         takeWall(compound, own, isPartOfPicture);
+        if (!own.destination)
+            warnOfSharesAbove(compound);
         if (own.phase >= own.period)
             findings_.error(compound.place, fmt::format("phase {} of a period of {} frames: it "
                                                         "must be less",
@@ -182,6 +195,22 @@ private:
         else if (wall && namesDestination(compound))
             findings_.warning(compound.place,
                               "the compound's wall has no effect: views and segments have theirs");
+    }
+
+    /// Of a compound outside every picture with compounds in one below it.
+    void warnOfSharesAbove(const Compound& compound) {
+        if (!std::ranges::any_of(compound.children, namesDestination))
+            return;
+        const auto warn = [&](bool isSaid, std::string_view what) {
+            if (isSaid)
+                findings_.warning(compound.place,
+                                  fmt::format("the compound's {} has no effect: it stands above "
+                                              "compounds of views' pictures, not within one",
+                                              what));
+        };
+        warn(compound.viewport != Viewport{}, "viewport");
+        warn(compound.pixel != PixelShare{}, "pixel");
+        warn(compound.zoom != fabric::Vec2(1, 1), "zoom");
     }
 
     void takeShares(const Compound& compound, ResolvedCompound& own) {
@@ -403,10 +432,7 @@ private:
     void addImplicit(std::size_t destination) {
         const Destination& shown = resolved_.destinations[destination];
         ResolvedCompound plain = atRoot();
-        plain.destination = destination;
-        plain.channel = shown.channel;
-        plain.pixelViewport = shown.pixelViewport;
-        plain.area = {0, 0, shown.pixelViewport.width, shown.pixelViewport.height};
+        takePicture(destination, plain);
         plain.eyes = shown.eyes;
         if (!plain.eyes.isEmpty() && !plain.pixelViewport.isEmpty())
             plain.tasks = {true, true, false, false};
