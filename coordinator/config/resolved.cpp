@@ -260,6 +260,9 @@ private:
             own.inputFrames.push_back({nameOf(frame), false, &frame});
         own.tasks = tasksOf(compound, own);
         warnOfUnusedFrames(compound);
+        if (compound.tasks && compound.tasks->draw && !compound.children.empty())
+            findings_.note(compound.place,
+                           "'DRAW' has no effect here: where a compound has children, they draw");
         warnOfIdleEqualizers(compound, own);
         if (own.tasks.draw)
             addSights(own);
@@ -293,12 +296,13 @@ private:
         return nullptr;
     }
 
-    /// What is not said: leaves draw; what begins is cleared, once a channel; what comes in is
-    /// assembled, what goes out read back.
+    /// Leaves alone draw. What is not said: they do; what begins is cleared, once a channel; what
+    /// comes in is assembled, what goes out read back.
     Tasks tasksOf(const Compound& compound, const ResolvedCompound& own) const {
         const bool isLeaf = compound.children.empty();
         Tasks tasks = compound.tasks.value_or(
             Tasks{!isLeaf || !isChannelOfAncestor(own), isLeaf, true, true});
+        tasks.draw = tasks.draw && isLeaf;
         tasks.assemble = tasks.assemble && !compound.inputFrames.empty();
         tasks.readback = tasks.readback && !compound.outputFrames.empty();
         if (!own.channel || own.pixelViewport.isEmpty() || own.range.isEmpty() ||

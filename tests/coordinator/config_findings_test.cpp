@@ -326,6 +326,17 @@ TEST(EqcWarnings, NameFramesThatTheTasksLeaveOut) {
         "f:2:45: warning: the compound's task has no READBACK: the outputframe stays empty\n");
 }
 
+TEST(EqcWarnings, SayThatChildrenDrawWhereTheirCompoundIsToldTo) {
+    const Read read(
+        withCompounds("compound { channel ( segment 0 view 0 ) task [ CLEAR DRAW ]\ncompound { "
+                      "task [ DRAW ] } }"));
+    EXPECT_EQ(describe(read.findings, "f"),
+              "f:1:204: note: 'DRAW' has no effect here: where a compound has children, they "
+              "draw\n");
+    EXPECT_FALSE(read.resolved.compounds[0].tasks.draw);
+    EXPECT_TRUE(read.resolved.compounds[1].tasks.draw);
+}
+
 TEST(EqcWarnings, SayWhichOutputFramesHaveANameThatAnotherHas) {
     const auto found = [](const std::string& first) {
         return describe(Read(withCompounds("compound { channel ( segment 0 view 0 )\n compound { "
