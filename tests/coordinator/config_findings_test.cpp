@@ -250,6 +250,43 @@ TEST(EqcWarnings, AreOfEverySettingOfEqualizersFilesThatHasNoEffect) {
     EXPECT_EQ(silent, soAnyway);
 }
 
+TEST(EqcWarnings, NameTheSettingThatIsMeantWhereCaseOrTypeIsAnother) {
+    const auto found = [](const std::string& global, const std::string& own) {
+        return describe(Read("global { " + global + " }\nserver { config {\nattributes { " + own +
+                             " } appNode { pipe { window { channel { name \"a\" } } } } layout { "
+                             "view {} } canvas { layout 0 segment { channel \"a\" } } } }")
+                            .findings,
+                        "f");
+    };
+    const auto isNone = [](const std::string& written) {
+        return "f:1:10: warning: '" + written +
+               "' is no global setting and is left out; 'EQ_CONFIG_FATTR_EYE_BASE' is one\n";
+    };
+    EXPECT_EQ(found("EQ_CONFIG_FATTR_EYE_BASE .2", "eye_base .2"), "");
+    for (const std::string written :
+         {"EQ_CONFIG_IATTR_EYE_BASE", "EQ_CONFIG_FATTR_eye_base", "EQ_CONFIG_iATTR_EYE_BASE"})
+        EXPECT_EQ(found(written + " .2", ""), isNone(written));
+    EXPECT_EQ(found("EQ_CONFIG_FATTR_EYE 1", ""),
+              "f:1:10: warning: 'EQ_CONFIG_FATTR_EYE' is no global setting and is left out\n");
+    EXPECT_EQ(
+        found("", "EYE_BASE .2"),
+        "f:3:14: warning: 'EYE_BASE' is no setting here and is left out; 'eye_base' is one\n");
+    EXPECT_EQ(found("", "hint_stereo ON"),
+              "f:3:14: warning: 'hint_stereo' is no setting here and is left out\n");
+}
+
+/// Names of Equalizer's lexer that are not of small letters alone.
+TEST(EqcWarnings, KnowSettingsAsEqualizerSpellsThem) {
+    const auto found = [](const std::string& text) { return describe(Read(text).findings, "f"); };
+    EXPECT_EQ(found("config { appNode { pipe { attributes { hint_cuda_GL_interop ON } window { "
+                    "channel { name \"a\" } } } } layout { view { attributes { DisplayCluster "
+                    "\"x\" } } } canvas { layout 0 segment { channel \"a\" swapbarrier { NV_group "
+                    "1 NV_barrier 1 } } } compound { channel ( segment 0 view 0 ) attributes { "
+                    "update_FOV ON } } }")
+                  .find("warning"),
+              std::string::npos);
+}
+
 TEST(EqcWarnings, OfWhatHasNoEffectComeLastAndOnceForAllPlaces) {
     const Read read(
         "config {\n"
