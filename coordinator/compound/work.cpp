@@ -100,9 +100,9 @@ private:
         std::size_t firstWork = 0;               ///< of what it and its children do
     };
 
-    /// Frames of one name, of the first compound that makes any.
+    /// What one output frame makes: of those of one name, the first as they are written.
     struct Named {
-        std::size_t compound = 0;
+        const config::ResolvedFrame* frame = nullptr;
         std::vector<std::size_t> frames;
     };
 
@@ -191,6 +191,9 @@ private:
         const std::optional<std::size_t> framebuffer = levels_.back().framebuffer;
         if (!framebuffer)
             return;
+        if (own.tasks.readback)
+            for (const config::ResolvedFrame& frame : own.outputFrames)
+                named_.try_emplace(frame.name, Named{&frame, {}});
         if (own.tasks.clear && (isClearAsked(own) || !isBegunAbove(*framebuffer)))
             add(Work::Kind::Clear, index, *framebuffer, areaOnFramebuffer(own));
         if (own.tasks.draw && isLeaf)
@@ -296,13 +299,12 @@ private:
 
     void addFrame(std::size_t index, const config::ResolvedFrame& frame, std::size_t framebuffer,
                   const PixelViewport& area, const PixelViewport& drawn) {
+        Named& named = named_.at(frame.name);
         const PixelViewport part =
             fabric::intersection(drawn, config::part(area, frame.frame->viewport));
-        if (part.isEmpty())
+        if (part.isEmpty() || named.frame != &frame)
             return;
-        Named& named = named_.try_emplace(frame.name, Named{index, {}}).first->second;
-        if (named.compound == index)
-            named.frames.push_back(list_.frames.size());
+        named.frames.push_back(list_.frames.size());
         const bool hasDepth =
             frame.frame->buffers.value_or(resolved_.compounds[index].buffers).depth;
         addReadBack(index, {framebuffer, part, zoomOf(frame.frame->zoom, part), hasDepth});

@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <functional>
 #include <span>
 
 #include <fmt/format.h>
@@ -57,10 +58,10 @@ constexpr std::array kKnown{
     Known{Scope::Pipe, "hint_thread", Type::Setting, kNote,
           "each pipe is a renderer of its own, in its own process", -1, "on"},
     Known{Scope::Pipe, "hint_affinity", Type::Setting, kNote, kCores, 0},
-    Known{Scope::Pipe, "hint_cuda_gl_interop", Type::Setting, kNote, "renderers do not use CUDA",
+    Known{Scope::Pipe, "hint_cuda_GL_interop", Type::Setting, kNote, "renderers do not use CUDA",
           0},
     Known{Scope::View, "deflect_host", Type::Text, kOnScreen, kNoScreen},
-    Known{Scope::View, "displaycluster", Type::Text, kOnScreen, kNoScreen},  // its name before
+    Known{Scope::View, "DisplayCluster", Type::Text, kOnScreen, kNoScreen},  // its name before
     Known{Scope::Window, "hint_core_profile", Type::Setting, kNote, kOpenGl, -1, "on"},
     Known{Scope::Window, "hint_opengl_major", Type::Setting, kNote, kOpenGl, 4},
     Known{Scope::Window, "hint_opengl_minor", Type::Setting, kNote, kOpenGl, 5},
@@ -93,7 +94,7 @@ constexpr std::array kKnown{
     Known{Scope::Compound, "stereo_mode", Type::Setting},
     Known{Scope::Compound, "stereo_anaglyph_left_mask", Type::Mask},
     Known{Scope::Compound, "stereo_anaglyph_right_mask", Type::Mask},
-    Known{Scope::Compound, "update_fov", Type::Setting, kNote, kRemoved},
+    Known{Scope::Compound, "update_FOV", Type::Setting, kNote, kRemoved},
     Known{Scope::Compound, "hint_offset", Type::Setting, kNote, kRemoved},
     Known{Scope::Connection, "hostname", Type::Text, kNote, kAddresses},
     Known{Scope::Connection, "type", Type::Setting, kNote, kGrpc, -1, "tcpip"},
@@ -105,8 +106,8 @@ constexpr std::array kKnown{
     Known{Scope::Connection, "launch_command", Type::Text, kNote, kServices},
     Known{Scope::Connection, "launch_command_quote", Type::Character, kNote, kServices},
     Known{Scope::Connection, "launch_timeout", Type::Setting, kNote, kServices},
-    Known{Scope::SwapBarrier, "nv_group", Type::Setting, kOnScreen, kNoScreen},
-    Known{Scope::SwapBarrier, "nv_barrier", Type::Setting, kOnScreen, kNoScreen},
+    Known{Scope::SwapBarrier, "NV_group", Type::Setting, kOnScreen, kNoScreen},
+    Known{Scope::SwapBarrier, "NV_barrier", Type::Setting, kOnScreen, kNoScreen},
 };
 
 constexpr std::array<std::string_view, 8> kScopeNames{
@@ -125,11 +126,59 @@ std::string lowered(std::string_view text) {
     return result;
 }
 
-const Known* knownOf(Scope scope, std::string_view name) {
-    const auto known = std::ranges::find_if(kKnown, [&](const Known& each) {
-        return each.scope == scope && each.name == lowered(name);
-    });
-    return known == kKnown.end() ? nullptr : &*known;
+char letterOf(Type type) {
+    switch (type) {
+        case Type::Real:
+            return 'F';
+        case Type::Text:
+            return 'S';
+        case Type::Character:
+            return 'C';
+        case Type::Setting:
+        case Type::Mask:
+            break;
+    }
+    return 'I';
+}
+
+/// As in EQ_WINDOW_IATTR_HINT_STEREO; empty where a setting has none.
+std::string globalNameOf(const Known& known) {
+    const auto scope = static_cast<std::size_t>(known.scope);
+    if (scope >= kScopeNames.size())
+        return {};
+    std::string name(known.name);
+    for (char& each : name)
+        each = static_cast<char>(std::toupper(static_cast<unsigned char>(each)));
+    return fmt::format("EQ_{}_{}ATTR_{}", kScopeNames[scope], letterOf(known.type), name);
+}
+
+/// Whether `written` is `name` but for case and, of a global one, the letter of its type.
+bool isMisspelt(std::string_view written, std::string_view name) {
+    const std::size_t letter = name.find("ATTR_");
+    std::string a = lowered(written);
+    std::string b = lowered(name);
+    if (letter != std::string_view::npos && a.size() == b.size())
+        a[letter - 1] = b[letter - 1];
+    return a == b;
+}
+
+/// The setting whose name, exactly, it is, as Equalizer reads them; others are left out with a
+/// warning. `nameOf` those that are not meant is empty.
+const Known* knownOf(const Statement& statement, ValueReader& reader, std::string_view kind,
+                     const std::function<std::string(const Known&)>& nameOf) {
+    std::string meant;
+    for (const Known& each : kKnown) {
+        const std::string name = nameOf(each);
+        if (name.empty())
+            continue;
+        if (name == statement.keyword)
+            return &each;
+        if (isMisspelt(statement.keyword, name))
+            meant = fmt::format("; '{}' is one", name);
+    }
+    reader.findings().warning(statement.place, fmt::format("'{}' is no {} and is left out{}",
+                                                           statement.keyword, kind, meant));
+    return nullptr;
 }
 
 /// ON, 24, CORE 1, …
@@ -282,12 +331,11 @@ const Attribute* find(const Attributes& attributes, std::string_view name) {
 
 void readAttribute(const Statement& statement, Scope scope, ValueReader& reader,
                    Attributes& attributes) {
-    if (const Known* const known = knownOf(scope, statement.keyword))
+    const auto nameOf = [scope](const Known& each) {
+        return each.scope == scope ? std::string(each.name) : std::string();
+    };
+    if (const Known* const known = knownOf(statement, reader, "setting here", nameOf))
         read(statement, *known, reader, attributes);
-    else
-        reader.findings().warning(
-            statement.place,
-            fmt::format("'{}' is no setting here and is left out", statement.keyword));
 }
 
 void readAttributes(const Statement& block, Scope scope, ValueReader& reader,
@@ -299,19 +347,8 @@ void readAttributes(const Statement& block, Scope scope, ValueReader& reader,
 }
 
 void readGlobal(const Statement& statement, ValueReader& reader, Attributes& globals) {
-    for (std::size_t i = 0; i < kScopeNames.size(); ++i)
-        for (const std::string_view kind : {"IATTR", "SATTR", "FATTR", "CATTR"}) {
-            const std::string prefix = fmt::format("EQ_{}_{}_", kScopeNames[i], kind);
-            if (!statement.keyword.starts_with(prefix))
-                continue;
-            const Known* const known =
-                knownOf(static_cast<Scope>(i), statement.keyword.substr(prefix.size()));
-            if (known != nullptr)
-                return read(statement, *known, reader, globals);
-        }
-    reader.findings().warning(
-        statement.place,
-        fmt::format("'{}' is no global setting and is left out", statement.keyword));
+    if (const Known* const known = knownOf(statement, reader, "global setting", globalNameOf))
+        read(statement, *known, reader, globals);
 }
 
 }  // namespace eyrie::config

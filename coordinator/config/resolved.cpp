@@ -15,6 +15,7 @@
 #include "coordinator/config/queue_names.h"
 #include "coordinator/config/torn_pictures.h"
 #include "coordinator/config/unseen.h"
+#include "coordinator/config/unshown.h"
 
 namespace eyrie::config {
 namespace {
@@ -74,9 +75,10 @@ public:
         for (const Compound& root : configuration_.compounds) {
             const std::size_t first = resolved_.compounds.size();
             visit(root, nullptr);
-            matchFrames(first);
-            warnOfUnshown(root, first);
             const auto tree = std::span(resolved_.compounds).subspan(first);
+            if (isShown(tree))
+                matchFrames(tree);
+            warnOfUnshown(tree, findings_);
             warnOfQueueNames(tree, findings_);
             warnOfLostDepth(tree, findings_);
             warnOfTornPictures(tree, findings_);
@@ -136,10 +138,21 @@ private:
         own.channel = found->channel;
         if (own.destination)
             return;  // within the picture of one destination another's channel is a helper
-        own.destination = static_cast<std::size_t>(found - resolved_.destinations.begin());
+        takePicture(static_cast<std::size_t>(found - resolved_.destinations.begin()), own);
         served_[*own.destination] = true;
-        own.pixelViewport = found->pixelViewport;
-        own.area = {0, 0, found->pixelViewport.width, found->pixelViewport.height};
+    }
+
+    /// All of a destination's picture, whatever compounds above it say.
+    void takePicture(std::size_t destination, ResolvedCompound& own) const {
+        const Destination& shown = resolved_.destinations[destination];
+        own.destination = destination;
+        own.channel = shown.channel;
+        own.pixelViewport = shown.pixelViewport;
+        own.regriddings.clear();
+        own.area = {0, 0, shown.pixelViewport.width, shown.pixelViewport.height};
+        own.viewport = {};
+        own.pixel = {};
+        own.zoom = {1, 1};
     }
 
     void inherit(const Compound& compound, ResolvedCompound& own, bool isPartOfPicture) {
@@ -165,6 +178,8 @@ private:
         if (own.destination && !isPartOfPicture)
             own.eyes = both(own.eyes, resolved_.destinations[*own.destination].eyes);
         takeWall(compound, own, isPartOfPicture);
+        if (!own.destination)
+            warnOfSharesAbove(compound);
         if (own.phase >= own.period)
             findings_.error(compound.place, fmt::format("phase {} of a period of {} frames: it "
                                                         "must be less",
@@ -180,6 +195,22 @@ private:
         else if (wall && namesDestination(compound))
             findings_.warning(compound.place,
                               "the compound's wall has no effect: views and segments have theirs");
+    }
+
+    /// Of a compound outside every picture with compounds in one below it.
+    void warnOfSharesAbove(const Compound& compound) {
+        if (!std::ranges::any_of(compound.children, namesDestination))
+            return;
+        const auto warn = [&](bool isSaid, std::string_view what) {
+            if (isSaid)
+                findings_.warning(compound.place,
+                                  fmt::format("the compound's {} has no effect: it stands above "
+                                              "compounds of views' pictures, not within one",
+                                              what));
+        };
+        warn(compound.viewport != Viewport{}, "viewport");
+        warn(compound.pixel != PixelShare{}, "pixel");
+        warn(compound.zoom != fabric::Vec2(1, 1), "zoom");
     }
 
     void takeShares(const Compound& compound, ResolvedCompound& own) {
@@ -229,6 +260,9 @@ private:
             own.inputFrames.push_back({nameOf(frame), false, &frame});
         own.tasks = tasksOf(compound, own);
         warnOfUnusedFrames(compound);
+        if (compound.tasks && compound.tasks->draw && !compound.children.empty())
+            findings_.note(compound.place,
+                           "'DRAW' has no effect here: where a compound has children, they draw");
         warnOfIdleEqualizers(compound, own);
         if (own.tasks.draw)
             addSights(own);
@@ -262,12 +296,13 @@ private:
         return nullptr;
     }
 
-    /// What is not said: leaves draw; what begins is cleared, once a channel; what comes in is
-    /// assembled, what goes out read back.
+    /// Leaves alone draw. What is not said: they do; what begins is cleared, once a channel; what
+    /// comes in is assembled, what goes out read back.
     Tasks tasksOf(const Compound& compound, const ResolvedCompound& own) const {
         const bool isLeaf = compound.children.empty();
         Tasks tasks = compound.tasks.value_or(
             Tasks{!isLeaf || !isChannelOfAncestor(own), isLeaf, true, true});
+        tasks.draw = tasks.draw && isLeaf;
         tasks.assemble = tasks.assemble && !compound.inputFrames.empty();
         tasks.readback = tasks.readback && !compound.outputFrames.empty();
         if (!own.channel || own.pixelViewport.isEmpty() || own.range.isEmpty() ||
@@ -341,32 +376,13 @@ private:
         add(own.eyes.right, Eye::Right, places.right);
     }
 
-    /// Of a tree that only draws into channels, as files of Equalizer 1.0 do, where views show
-    /// others.
-    void warnOfUnshown(const Compound& root, std::size_t first) {
-        const auto tree = std::span(resolved_.compounds).subspan(first);
-        if (std::ranges::none_of(
-                tree, [](const ResolvedCompound& each) { return each.destination.has_value(); }))
-            findings_.warning(root.place,
-                              "nothing of this compound tree is shown: none of its channels is a "
-                              "view's, as in channel ( canvas 0 segment 0 layout 0 view 0 )");
-    }
-
-    /// Names count within one tree; of several output frames with one name at one time, the first.
-    void matchFrames(std::size_t first) {
-        const auto tree = std::span(resolved_.compounds).subspan(first);
+    /// Names count within one tree; of several output frames with one name at one time, the first
+    /// that is read back. Those of compounds outside every picture count for nothing.
+    void matchFrames(std::span<ResolvedCompound> tree) {
         for (ResolvedCompound& compound : tree)
             for (ResolvedFrame& frame : compound.outputFrames) addOutput(compound, frame);
         for (ResolvedCompound& compound : tree)
-            for (ResolvedFrame& frame : compound.inputFrames) {
-                for (const Output& output : outputs_[frame.name])
-                    frame.isMatched = output.frame->isMatched = true;
-                if (!frame.isMatched)
-                    findings_.warning(frame.frame->place,
-                                      fmt::format("no outputframe of this compound tree is named "
-                                                  "\"{}\"",
-                                                  frame.name));
-            }
+            for (ResolvedFrame& frame : compound.inputFrames) takeOutputs(compound, frame);
         for (const Output& output : inOrder_)
             if (!output.frame->isMatched)
                 findings_.warning(
@@ -376,10 +392,31 @@ private:
         inOrder_.clear();
     }
 
+    void takeOutputs(const ResolvedCompound& compound, ResolvedFrame& frame) {
+        if (!compound.destination)
+            return warnOfOutside(frame, "the inputframe has no effect");
+        for (const Output& output : outputs_[frame.name])
+            frame.isMatched = output.frame->isMatched = true;
+        if (!frame.isMatched)
+            findings_.warning(
+                frame.frame->place,
+                fmt::format("no outputframe of this compound tree is named \"{}\"", frame.name));
+    }
+
+    void warnOfOutside(const ResolvedFrame& frame, std::string_view what) {
+        findings_.warning(frame.frame->place,
+                          fmt::format("{}: its compound is no part of a view's picture, as with "
+                                      "channel ( segment 0 view 0 )",
+                                      what));
+    }
+
     void addOutput(const ResolvedCompound& compound, ResolvedFrame& frame) {
+        if (!compound.destination)
+            return warnOfOutside(frame, "the outputframe stays empty");
         std::vector<Output>& others = outputs_[frame.name];
-        const bool isTaken = std::ranges::any_of(
-            others, [&](const Output& other) { return meet(*other.compound, compound); });
+        const bool isTaken = std::ranges::any_of(others, [&](const Output& other) {
+            return other.compound->tasks.readback && meet(*other.compound, compound);
+        });
         if (isTaken)
             findings_.warning(frame.frame->place,
                               fmt::format("another outputframe is named \"{}\" already; this one "
@@ -399,10 +436,7 @@ private:
     void addImplicit(std::size_t destination) {
         const Destination& shown = resolved_.destinations[destination];
         ResolvedCompound plain = atRoot();
-        plain.destination = destination;
-        plain.channel = shown.channel;
-        plain.pixelViewport = shown.pixelViewport;
-        plain.area = {0, 0, shown.pixelViewport.width, shown.pixelViewport.height};
+        takePicture(destination, plain);
         plain.eyes = shown.eyes;
         if (!plain.eyes.isEmpty() && !plain.pixelViewport.isEmpty())
             plain.tasks = {true, true, false, false};

@@ -120,7 +120,7 @@ inline std::string_view whyEmpty(const RenderedFrame& frame) {
     return frame.pictures.empty()
                ? ""
                : "Nothing is seen here: the eye is not before the wall that it is to look through, "
-                 "or the canvas shows no layout.";
+                 "the canvas shows no layout, or no compound draws what the view shows.";
 }
 
 /// The same of a frame of which a part shows nothing.

@@ -133,6 +133,41 @@ TEST(Compose, PlacedFramesOfSharesOfTheDataMeetByDepth) {
               0);
 }
 
+/// One channel's picture of all that "a", "b" and "c" draw, and what of "b" and "c" is taken.
+void expectAllIsShown(const std::string& others) {
+    config::Findings findings;
+    const config::Configuration configuration = config::readEqc(
+        "server { config { appNode { pipe {\n"
+        "window { viewport [ 0 0 40 24 ] channel { name \"a\" } }\n"
+        "window { viewport [ 0 0 40 24 ] channel { name \"b\" } }\n"
+        "window { viewport [ 0 0 40 24 ] channel { name \"c\" } } } }\n"
+        "layout { view { } } canvas { layout 0 segment { channel \"a\" } }\n"
+        "compound { channel ( segment 0 view 0 ) buffer [ COLOR DEPTH ]\n"
+        "compound { channel \"a\" range [ 0 .34 ] }\n" +
+            others + " inputframe { name \"f\" } } } }",
+        findings);
+    EXPECT_FALSE(findings.hasErrors()) << config::describe(findings, "f");
+    const LayeredScene scene(3);
+    const auto made = pictures(configuration, ofEvenSize(), scene);
+    ASSERT_EQ(made.size(), 1U);
+    EXPECT_EQ(differingPixels(made[0], scene.whole(kWidth, kHeight)), 0) << others;
+}
+
+/// As the configuration's reader warns; parents stand before their children, and end after them.
+TEST(Compose, OfOutputFramesWithOneNameTheFirstIsTaken) {
+    expectAllIsShown(
+        "compound { channel \"b\" outputframe { name \"f\" }\n"
+        "compound { range [ .34 .67 ] outputframe { name \"f\" } }\n"
+        "compound { channel \"c\" range [ .67 1 ] outputframe { name \"g\" } }\n"
+        "inputframe { name \"g\" } }");
+    expectAllIsShown(
+        "compound { channel \"b\" range [ .34 1 ] outputframe { name \"f\" }\n"
+        "outputframe { name \"f\" buffer [ COLOR ] viewport [ 0 0 .5 1 ] } }");
+    expectAllIsShown(
+        "compound { channel \"c\" task [ CLEAR DRAW ] outputframe { name \"f\" } }\n"
+        "compound { channel \"b\" range [ .34 1 ] outputframe { name \"f\" } }");
+}
+
 /// Onto another canvas, where the input frame says where to, and where nothing does.
 TEST(Compose, AFrameOfAnotherViewsChannelComesWhereItsViewportIs) {
     const auto made = [](const std::string& input) {

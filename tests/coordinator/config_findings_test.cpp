@@ -109,7 +109,8 @@ TEST(EqcErrors, AreEyesThatAreNotBeforeTheirWall) {
 }
 
 TEST(EqcWarnings, SayWhatHasNoEffect) {
-    const Read read(withCompounds("nonsense 5 compound { inputframe { name \"x\" } }"));
+    const Read read(withCompounds(
+        "nonsense 5 compound { channel ( segment 0 view 0 ) inputframe { name \"x\" } }"));
     EXPECT_FALSE(read.findings.hasErrors());
     const std::string text = describe(read.findings, "f");
     EXPECT_THAT(text, HasSubstr("'nonsense' means nothing in a config"));
@@ -144,6 +145,34 @@ TEST(EqcWarnings, SayWhatShowsNothing) {
     EXPECT_EQ(found(withCompounds("compound { channel \"a\" compound { channel \"b\" } }")),
               "f:1:204: warning: nothing of this compound tree is shown: none of its channels is a "
               "view's, as in channel ( canvas 0 segment 0 layout 0 view 0 )\n");
+}
+
+TEST(EqcWarnings, SayWhatIsOutsideEveryViewsPictureBesideWhatIsInOne) {
+    const auto found = [](const std::string& outside) {
+        return describe(
+            Read(withCompounds("compound {\n " + outside +
+                               "\n compound { channel ( segment 0 view 0 ) task [ CLEAR ASSEMBLE ]"
+                               "\ninputframe { name \"f\" } } }"))
+                .findings,
+            "f");
+    };
+    const std::string unshown =
+        "warning: nothing of this compound tree is shown: none of its channels is a view's, as in "
+        "channel ( canvas 0 segment 0 layout 0 view 0 )\n";
+    const std::string stays =
+        "warning: the outputframe stays empty: its compound is no part of a view's picture, as "
+        "with channel ( segment 0 view 0 )\n";
+    const std::string noFrame =
+        "f:4:1: warning: no outputframe of this compound tree is named \"f\"\n";
+    EXPECT_EQ(found("compound { channel \"b\" wall {} outputframe { name \"f\" } }"),
+              "f:2:33: " + stays + noFrame + "f:2:2: " + unshown);
+    EXPECT_EQ(found("compound { outputframe { name \"f\" } compound { channel \"b\" } }"),
+              "f:2:13: " + stays + noFrame + "f:2:2: " + unshown);
+    EXPECT_EQ(found("outputframe { name \"f\" }"), "f:2:2: " + stays + noFrame);
+    EXPECT_EQ(found("compound { channel ( segment 0 view 0 ) outputframe { name \"f\" } }\n"
+                    "compound { channel \"b\" task [ ASSEMBLE ] inputframe { name \"f\" } }"),
+              "f:3:42: warning: the inputframe has no effect: its compound is no part of a view's "
+              "picture, as with channel ( segment 0 view 0 )\n");
 }
 
 /// Every setting of a configuration, wherever it stands.
@@ -221,6 +250,43 @@ TEST(EqcWarnings, AreOfEverySettingOfEqualizersFilesThatHasNoEffect) {
     EXPECT_EQ(silent, soAnyway);
 }
 
+TEST(EqcWarnings, NameTheSettingThatIsMeantWhereCaseOrTypeIsAnother) {
+    const auto found = [](const std::string& global, const std::string& own) {
+        return describe(Read("global { " + global + " }\nserver { config {\nattributes { " + own +
+                             " } appNode { pipe { window { channel { name \"a\" } } } } layout { "
+                             "view {} } canvas { layout 0 segment { channel \"a\" } } } }")
+                            .findings,
+                        "f");
+    };
+    const auto isNone = [](const std::string& written) {
+        return "f:1:10: warning: '" + written +
+               "' is no global setting and is left out; 'EQ_CONFIG_FATTR_EYE_BASE' is one\n";
+    };
+    EXPECT_EQ(found("EQ_CONFIG_FATTR_EYE_BASE .2", "eye_base .2"), "");
+    for (const std::string written :
+         {"EQ_CONFIG_IATTR_EYE_BASE", "EQ_CONFIG_FATTR_eye_base", "EQ_CONFIG_iATTR_EYE_BASE"})
+        EXPECT_EQ(found(written + " .2", ""), isNone(written));
+    EXPECT_EQ(found("EQ_CONFIG_FATTR_EYE 1", ""),
+              "f:1:10: warning: 'EQ_CONFIG_FATTR_EYE' is no global setting and is left out\n");
+    EXPECT_EQ(
+        found("", "EYE_BASE .2"),
+        "f:3:14: warning: 'EYE_BASE' is no setting here and is left out; 'eye_base' is one\n");
+    EXPECT_EQ(found("", "hint_stereo ON"),
+              "f:3:14: warning: 'hint_stereo' is no setting here and is left out\n");
+}
+
+/// Names of Equalizer's lexer that are not of small letters alone.
+TEST(EqcWarnings, KnowSettingsAsEqualizerSpellsThem) {
+    const auto found = [](const std::string& text) { return describe(Read(text).findings, "f"); };
+    EXPECT_EQ(found("config { appNode { pipe { attributes { hint_cuda_GL_interop ON } window { "
+                    "channel { name \"a\" } } } } layout { view { attributes { DisplayCluster "
+                    "\"x\" } } } canvas { layout 0 segment { channel \"a\" swapbarrier { NV_group "
+                    "1 NV_barrier 1 } } } compound { channel ( segment 0 view 0 ) attributes { "
+                    "update_FOV ON } } }")
+                  .find("warning"),
+              std::string::npos);
+}
+
 TEST(EqcWarnings, OfWhatHasNoEffectComeLastAndOnceForAllPlaces) {
     const Read read(
         "config {\n"
@@ -294,6 +360,36 @@ TEST(EqcWarnings, NameFramesThatTheTasksLeaveOut) {
         "f:3:2: warning: the compound's task has no ASSEMBLE: the inputframe has no effect\n");
     EXPECT_EQ(
         found("", "task [ CLEAR DRAW ]"),
+        "f:2:45: warning: the compound's task has no READBACK: the outputframe stays empty\n");
+}
+
+TEST(EqcWarnings, SayThatChildrenDrawWhereTheirCompoundIsToldTo) {
+    const Read read(
+        withCompounds("compound { channel ( segment 0 view 0 ) task [ CLEAR DRAW ]\ncompound { "
+                      "task [ DRAW ] } }"));
+    EXPECT_EQ(describe(read.findings, "f"),
+              "f:1:204: note: 'DRAW' has no effect here: where a compound has children, they "
+              "draw\n");
+    EXPECT_FALSE(read.resolved.compounds[0].tasks.draw);
+    EXPECT_TRUE(read.resolved.compounds[1].tasks.draw);
+}
+
+TEST(EqcWarnings, SayWhichOutputFramesHaveANameThatAnotherHas) {
+    const auto found = [](const std::string& first) {
+        return describe(Read(withCompounds("compound { channel ( segment 0 view 0 )\n compound { "
+                                           "channel \"b\" " +
+                                           first +
+                                           " outputframe { name \"f\" } }\n compound { channel "
+                                           "\"b\" outputframe { name \"f\" } }\n inputframe { "
+                                           "name \"f\" } }"))
+                            .findings,
+                        "f");
+    };
+    EXPECT_EQ(found(""),
+              "f:3:25: warning: another outputframe is named \"f\" already; this one has no "
+              "effect\n");
+    EXPECT_EQ(
+        found("task [ CLEAR DRAW ]"),
         "f:2:45: warning: the compound's task has no READBACK: the outputframe stays empty\n");
 }
 

@@ -257,6 +257,27 @@ TEST(Resolve, TakesWallsOfCompoundsWithinADestinationOnly) {
     EXPECT_NEAR(right(within), 5, 1e-12);
 }
 
+TEST(Resolve, TakesAllOfADestinationsPictureWhateverStandsAboveIt) {
+    const std::string shown = " compound { channel ( segment 0 view 0 ) } }";
+    const Read plain(withCompounds("compound {" + shown));
+    for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{
+             {"viewport", "[ 0 0 .5 1 ]"}, {"pixel", "[ 0 0 2 1 ]"}, {"zoom", "[ .5 .5 ]"}}) {
+        const Read read(withCompounds("compound { " + name + " " + value + shown));
+        EXPECT_EQ(describe(read.findings, "f"),
+                  "f:1:204: warning: the compound's " + name +
+                      " has no effect: it stands above compounds of views' pictures, not within "
+                      "one\n");
+        ASSERT_EQ(read.resolved.compounds.size(), 2U);
+        const ResolvedCompound& own = read.resolved.compounds[1];
+        EXPECT_EQ(own.pixelViewport, (fabric::PixelViewport{0, 0, 640, 480}));
+        EXPECT_EQ(own.viewport, Viewport{}) << name;
+        EXPECT_EQ(own.pixel, PixelShare{}) << name;
+        EXPECT_EQ(own.zoom, fabric::Vec2(1, 1)) << name;
+        EXPECT_TRUE(own.regriddings.empty()) << name;
+        EXPECT_EQ(own.sights.at(0).sight, plain.resolved.compounds[1].sights.at(0).sight) << name;
+    }
+}
+
 TEST(Resolve, TakesTheEyesOfTheInnermostCompoundAboveADestination) {
     const Read read(
         withCompounds("compound { eye [ LEFT ] compound { channel ( segment 0 view 0 ) "

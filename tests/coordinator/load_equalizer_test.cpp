@@ -300,6 +300,25 @@ TEST(LoadEqualizer, SharesBetweenGroupsByTheirNumber) {
     EXPECT_NEAR(balanced.at(3).viewport.width, .5, .03);
 }
 
+/// Whether a group of compounds is told to draw or not, its children alone do.
+TEST(LoadEqualizer, LearnsFromGroupsThatAreToldToDraw) {
+    const auto moved = [](const std::string& task) {
+        Balanced balanced(configurationOf(
+            2,
+            "compound { channel ( segment 0 view 0 ) load_equalizer { } compound { } "
+            "compound { channel \"s1\" " +
+                task +
+                " compound { viewport [ 0 0 1 .5 ] } compound { channel \"s2\" viewport [ 0 .5 1 "
+                ".5 ] outputframe { name \"k\" } } inputframe { name \"k\" } "
+                "outputframe { name \"f\" } } inputframe { name \"f\" } }"));
+        for (int frame = 0; frame < 12; ++frame) balanced.draw(Spot{{0, 0, .2, 1}});
+        return balanced.live.compounds[0].children[0].viewport;
+    };
+    const config::Viewport plain = moved("");
+    EXPECT_LT(plain.width, .3);
+    EXPECT_EQ(moved("task [ CLEAR DRAW ASSEMBLE READBACK ]"), plain);
+}
+
 /// Any double, the odd ones often.
 rc::Gen<double> anyTime() {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();

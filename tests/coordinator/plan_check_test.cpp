@@ -110,6 +110,14 @@ TEST(PlanCheck, WarnsOfPicturesThatAreDrawnSmallerOnly) {
                 testing::AllOf(testing::StartsWith("f:3:1: warning: "), HasSubstr("24000x1600")));
 }
 
+TEST(PlanCheck, HasNothingToSayOfSharesAboveAViewsPicture) {
+    for (const std::string above : {"pixel [ 0 0 2 1 ]", "zoom [ .5 .5 ]", "viewport [ 0 0 .5 1 ]"})
+        EXPECT_EQ(foundIn(withCompounds("compound { " + above +
+                                        " compound { channel ( segment 0 view \"v\" ) } }")),
+                  "")
+            << above;
+}
+
 /// A destination whose picture two channels make, each what is said of it.
 std::string halves(std::string_view b, std::string_view c) {
     return withCompounds(

@@ -61,6 +61,7 @@ TEST(Note, ACanvasOfOthersFramesIsNoEmptyOne) {
     RenderedFrame monitor;
     monitor.pictures = {{0, std::vector<fabric::SeenArea>()}};
     EXPECT_THAT(std::string(whyEmpty(monitor)), testing::HasSubstr("Nothing is seen here"));
+    EXPECT_THAT(std::string(whyEmpty(monitor)), testing::HasSubstr("no compound draws"));
     monitor.parts.emplace_back();
     EXPECT_EQ(whyEmpty(monitor), "");
 }

@@ -56,7 +56,7 @@ void Tiles::switchOff(Turn& turn) {
 void Tiles::set(Turn& turn, const std::optional<config::Tiles>& tiles) const {
     equalizer::set(turn.live[position_]->outputTiles, name_, tiles);
     for (std::size_t p = position_; p < work_.at(position_).end; ++p)
-        if (work_.at(p).drawsItself && (p != position_ || work_.at(p).children.empty()))
+        if (work_.at(p).drawsItself)
             equalizer::set(turn.live[p]->inputTiles, name_, tiles);
 }
 

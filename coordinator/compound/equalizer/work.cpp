@@ -53,7 +53,7 @@ Work::Work(const config::Configuration& written) {
 void Work::add(const config::Compound& compound) {
     const std::size_t position = compounds_.size();
     compounds_.emplace_back();
-    const bool drawsItself = compound.tasks ? compound.tasks->draw : compound.children.empty();
+    const bool drawsItself = compound.children.empty() && (!compound.tasks || compound.tasks->draw);
     bool draws = drawsItself;
     std::vector<std::size_t> children;
     for (const config::Compound& child : compound.children) {

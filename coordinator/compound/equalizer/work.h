@@ -34,7 +34,7 @@ public:
         std::size_t end = 0;                ///< past the last compound of its tree
         std::vector<std::size_t> children;  ///< positions
         bool draws = false;                 ///< itself, or one below it
-        bool drawsItself = false;
+        bool drawsItself = false;           ///< without children
     };
     const Compound& at(std::size_t position) const { return compounds_[position]; }
     std::size_t size() const { return compounds_.size(); }
