@@ -123,6 +123,8 @@ void count(const PlayedFrame& frame, RunSummary& summary) {
         std::max(summary.normalErrorMeanDegreesMax, statistics.normalErrorMeanDegrees);
     summary.framesBeyond += isBeyondTau(frame) ? 1 : 0;
     summary.framesEmpty += showsSomething(frame) ? 0 : 1;
+    summary.framesSmaller += isSmaller(frame) ? 1 : 0;
+    summary.stretchMax = std::max(summary.stretchMax, frame.stretch);
     summary.trianglesMean += static_cast<double>(statistics.triangles);
     summary.pointsMean += static_cast<double>(statistics.points);
 }

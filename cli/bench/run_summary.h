@@ -49,6 +49,8 @@ struct RunSummary {
     double tauAchievedMax = 0;               ///< the error promised for every frame, pixels
     std::uint64_t framesBeyond = 0;          ///< that promise more than was asked, and say so
     std::uint64_t framesEmpty = 0;           ///< that show nothing of the scene
+    std::uint64_t framesSmaller = 0;         ///< drawn with fewer pixels than were asked for
+    double stretchMax = 1;                   ///< of the smallest of them
     /// Of meshes, of the worst frame: fabric::FrameStatistics' of the same names.
     double normalErrorDegreesMax = 0;
     double normalErrorMeanDegreesMax = 0;

@@ -101,7 +101,9 @@ JsonObject toJson(const BenchRun& run, const std::vector<UniformLevel>& uniform)
         .count("framesEmpty", summary.framesEmpty);
     if (run.budgetMilliseconds > 0)
         json.number("budgetMs", run.budgetMilliseconds)
-            .number("withinBudget", summary.withinBudget);
+            .number("withinBudget", summary.withinBudget)
+            .count("framesSmaller", summary.framesSmaller)
+            .number("stretchMax", summary.stretchMax);
     if (!run.measured || run.measured->frames.empty())
         return json;
     const ErrorSummary errors = summarize(*run.measured);

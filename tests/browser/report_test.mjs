@@ -79,6 +79,22 @@ try {
     atATime.length === 2 && atATime.every(({ words }) => words.includes("95 in 100")),
     "those that hold a time stand where 95 in 100 of their warm frames are",
   );
+  const shrunk = readFileSync(join(folder, "held/index.html"), "utf8").replaceAll(
+    /"framesSmaller": \d+, "stretchMax": [\d.]+/g,
+    '"framesSmaller": 7, "stretchMax": 2',
+  );
+  writeFileSync(join(folder, "shrunk.html"), shrunk);
+  await browser.page.goto(pathToFileURL(join(folder, "shrunk.html")).href);
+  check(
+    (await marks(browser.page, "#curve")).filter(({ words }) =>
+      words.includes("7 of 18 frames were drawn smaller, their pixels stretched up to 2 times"),
+    ).length === 2,
+    "and say how many of their frames were drawn smaller, and by how much",
+  );
+  check(
+    (await browser.page.textContent("#curve-says")).includes("At 10 ms, one process, 7 of 18"),
+    "as the words above them do",
+  );
 
   const measured = all.filter(({ words }) => /^(10|1000) ms: the worst pixel of/.test(words));
   check(

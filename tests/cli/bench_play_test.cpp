@@ -27,6 +27,9 @@ public:
         frame.statistics.nodes = 1;
         frame.statistics.tauAskedPixels = request.tauPixels;
         frame.statistics.tauAchievedPixels = request.camera.eye.x;
+        if (request.budgetMilliseconds)
+            frame.statistics.budget =
+                fabric::BudgetUse{*request.budgetMilliseconds, 30, request.tauPixels, 100, 1};
         return frame;
     }
     int framesAtOnce() const override { return atOnce_; }
@@ -139,6 +142,9 @@ TEST(BenchPlay, TellsErrorsInPixelsOfTheSizeAskedForAndKeepsThemInThePicturesOwn
         return played.frames[0].statistics.tauAchievedPixels;
     };
     EXPECT_EQ(promised(*smaller), 2 * promised(*whole));
+    EXPECT_EQ(smaller->frames[0].statistics.budget->tauPixels, 2 * options.request.tauPixels);
+    EXPECT_EQ(smaller->frames[0].stretch, 2);
+    EXPECT_EQ(whole->frames[0].stretch, 1);
     EXPECT_EQ(smaller->kept[0].statistics.tauAchievedPixels, promised(*whole));
     EXPECT_EQ(stretch({0, 0, 905, 509}, 1280, 720), 720. / 509) << "the longer way";
 }

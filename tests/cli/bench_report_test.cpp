@@ -95,7 +95,23 @@ TEST(BenchReport, ARunAtAFrameTimeSaysHowItWasHeld) {
     EXPECT_EQ(number(run, "tauAchieved.p95"), 0.5);
     EXPECT_THAT(table(held.runs),
                 testing::HasSubstr("33 ms to hold: 0.0 % of frames within 40 ms"));
-    EXPECT_THAT(framesCsv(held.runs), testing::HasSubstr(",33,30.000,0.5,20.000\n"));
+    EXPECT_THAT(framesCsv(held.runs), testing::HasSubstr(",33,30.000,0.5,20.000,1.0000\n"));
+}
+
+TEST(BenchReport, FramesDrawnSmallerSaySoEverywhere) {
+    Report held = report();
+    held.runs[0].budgetMilliseconds = 33;
+    const Report whole = held;
+    held.runs[0].played.frames[1].stretch = 1.5;
+    held.runs[0].played.frames[2].stretch = 4;
+    const test::JsonValue run = test::list(parseJson(summaryJson(held)), "runs").at(0);
+    EXPECT_EQ(number(run, "framesSmaller"), 2);
+    EXPECT_EQ(number(run, "stretchMax"), 4);
+    EXPECT_THAT(framesCsv(held.runs), testing::HasSubstr(",4.0000\n"));
+    EXPECT_THAT(table(held.runs),
+                testing::HasSubstr("; 2 of 4 frames were drawn smaller, their pixels stretched up "
+                                   "to 4.00 times\n"));
+    EXPECT_THAT(table(whole.runs), testing::Not(testing::HasSubstr("smaller")));
 }
 
 TEST(BenchReport, ARunTooShortToTellHowItsFrameTimeWasHeldSaysSo) {
@@ -296,8 +312,8 @@ TEST(BenchReport, NamesFrameTimeAndLatencyApart) {
     EXPECT_EQ(number(run, "stagesMs.total"), 27) << "stages are of one frame's life";
     EXPECT_THAT(table(runs),
                 testing::ContainsRegex("in flight  latency ms.*\n.* 20.0 .* 2 +27.0 "));
-    EXPECT_THAT(framesCsv(runs), testing::HasSubstr(",latency\n"));
-    EXPECT_THAT(framesCsv(runs), testing::HasSubstr(",,,27.000\n"));
+    EXPECT_THAT(framesCsv(runs), testing::HasSubstr(",latency,stretch\n"));
+    EXPECT_THAT(framesCsv(runs), testing::HasSubstr(",,,27.000,1.0000\n"));
 }
 
 TEST(BenchReport, AFilesNameCannotEndThePagesScript) {

@@ -27,10 +27,16 @@ function drawMeasured(svg, list, { x, y }) {
   }
 }
 
+/** How many frames of a run have fewer pixels than were asked for, in words; nothing where none has. */
+const smaller = (run) =>
+  run.framesSmaller > 0
+    ? `${number(run.framesSmaller)} of ${number(bench.frames * (bench.repeats + 1))} frames were drawn smaller, their pixels stretched up to ${number(run.stretchMax)} times`
+    : "";
+
 /** What a run's frames promise, in words. */
 const promiseOf = (run) =>
   run.budgetMs > 0
-    ? `half of the warm frames promise at most ${number(run.tauAchieved.p50)} px, 95 in 100 ${number(run.tauAchieved.p95)} px;\nthe worst of all, that load too, ${number(run.tauAchievedMax)} px`
+    ? `half of the warm frames promise at most ${number(run.tauAchieved.p50)} px, 95 in 100 ${number(run.tauAchieved.p95)} px;\nthe worst of all, that load too, ${number(run.tauAchievedMax)} px${smaller(run) && `;\n${smaller(run)}`}`
     : `every frame promises at most ${number(run.tauAchievedMax)} px`;
 
 function drawSeries(svg, list, colour, { x, y }, labelled) {

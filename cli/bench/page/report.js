@@ -31,6 +31,7 @@ function rowGroups() {
   const groups = [
     ["Promised", ["error of every frame, at most, px", (run) => number(run.tauAchievedMax)], ["half of the warm frames, at most, px", (run) => number(run.tauAchieved.p50)], ["95 in 100 of them", (run) => number(run.tauAchieved.p95)],
       ["frames that promise more than tau", (run) => number(run.framesBeyondTau)],
+      ["frames drawn smaller than asked for, and how far the smallest is stretched", (run) => (run.framesSmaller > 0 ? `${number(run.framesSmaller)}, ${number(run.stretchMax)}×` : "–")],
       ["normals of meshes, on average over any node, degrees", (run) => (run.normalErrorDegreesMax > 0 ? number(run.normalErrorMeanDegreesMax) : "–")]],
     ["Measured against the source", ["median, px", measured((run) => number(run.errorPx.p50))], ["p99 of the worst frame, px", measured((run) => number(run.errorPx.p99))],
       ["worst pixel, px", measured((run) => number(run.errorPx.max))], ["outline, at most, px", measured((run) => number(run.silhouettePx))],
@@ -79,7 +80,7 @@ function sayWhatIsSeen() {
   say(byId("what"), `**${bench.scene}**, flight **${bench.flight}**, ${bench.width} × ${bench.height} pixels, ${bench.frames} frames × ${bench.repeats} ${bench.repeats === 1 ? "pass" : "passes"} after one that loads`);
   if (!run) return;
   say(byId("curve-says"), `At ${run.label} half of all frames take **${number(run.frameMs.p50)} ms** or less and 95 % at most **${number(run.frameMs.p95)} ms**` +
-    (run.errorPx ? `, and the worst pixel is **${number(run.errorPx.max)} px** from where the source has it. The shaded gap is error that was promised for but not made.` : ". Every frame keeps the error it promises."));
+    (run.errorPx ? `, and the worst pixel is **${number(run.errorPx.max)} px** from where the source has it. The shaded gap is error that was promised for but not made.` : ". Every frame keeps the error it promises.") + runs.filter(smaller).map((one) => ` At ${one.label}, ${processes(one)}, **${smaller(one)}**.`).join(""));
   byId("curve-note").textContent = measured.length > 0
     ? "Promised is a bound that holds before a frame is drawn; measured is what an independent ray caster in double precision finds against the full-resolution source. Measured must never be to the right of promised."
     : "Promised is a bound, derived in docs/errors.md. With --reference it is held against the full-resolution source.";
