@@ -41,8 +41,8 @@ struct RunSummary {
     /// frames with measured stages share it, total the frame's latency.
     fabric::StageMilliseconds means;
     double fpsMedian = 0;
-    double trianglesMean = 0;
-    double pointsMean = 0;  ///< drawn in place of triangles
+    double trianglesMean = 0;  ///< of the measured passes
+    double pointsMean = 0;     ///< of these, drawn in place of triangles
     std::uint64_t pagesLoaded = 0;
     std::uint64_t bytesLoaded = 0;           ///< as stored
     std::uint64_t bytesLoadedFirstPass = 0;  ///< of these
@@ -76,6 +76,7 @@ struct ErrorSummary {
     double ssim = 1;              ///< of the worst frame
     double flip = 0;              ///< of the worst frame
     bool withinPromise = true;    ///< all frames do: keepsPromise
+    double trianglesMean = 0;     ///< and points
 };
 
 /// Precondition: measured.frames is not empty.

@@ -67,6 +67,7 @@ void addMeasured(const ErrorSummary& errors, std::size_t frames, JsonObject& jso
         .number("ssim", errors.ssim)
         .number("flip", errors.flip)
         .flag("measuredWithinPromise", errors.withinPromise)
+        .number("trianglesMeasured", errors.trianglesMean)
         .count("framesMeasured", frames);
 }
 
@@ -108,11 +109,10 @@ JsonObject toJson(const BenchRun& run, const std::vector<UniformLevel>& uniform)
         return json;
     const ErrorSummary errors = summarize(*run.measured);
     addMeasured(errors, run.measured->frames.size(), json);
-    const double drawn = summary.trianglesMean + summary.pointsMean;
-    if (const auto factor = efficiency(uniform, errors.p99Pixels, drawn))
+    if (const auto factor = efficiency(uniform, errors.p99Pixels, errors.trianglesMean))
         json.number("efficiency", *factor);
-    if (const auto factor =
-            efficiency(uniform, errors.p99Pixels, drawn, &UniformLevel::trianglesWhole))
+    if (const auto factor = efficiency(uniform, errors.p99Pixels, errors.trianglesMean,
+                                       &UniformLevel::trianglesWhole))
         json.number("efficiencyWhole", *factor);
     return json;
 }
