@@ -45,14 +45,22 @@ double radicalInverse(int index) {
 /// what a flight repeats, as the shots of `worst`; it is off the halves, where these change.
 double placeInPart(int part) { return std::fmod(radicalInverse(part + 1) + 1.0 / 16, 1); }
 
-/// How near to its promise, or how far beyond: what makes a frame worth looking at.
-double share(const FrameError& error) { return error.maxPixels / error.promisedPixels; }
+/// What a frame's surface may be off.
+double allowedPixels(const FrameError& error) {
+    return error.promisedPixels + kRasterPixels * error.stretch;
+}
+
+/// How near to its promise, or how far beyond: what makes a frame worth looking at. Less than that
+/// of any other of one that is empty.
+double share(const FrameError& error) {
+    return isEmpty(error) ? -1 : error.maxPixels / allowedPixels(error);
+}
 
 }  // namespace
 
 bool keepsPromise(const FrameError& error) {
-    return error.maxPixels <= error.promisedPixels + kRasterPixels * error.stretch &&
-           error.holes == 0 && error.falseHits == 0 && error.misplaced == 0;
+    return error.maxPixels <= allowedPixels(error) && error.holes == 0 && error.falseHits == 0 &&
+           error.misplaced == 0;
 }
 
 std::vector<int> judgedFrames(const JudgedFrames& frames) {

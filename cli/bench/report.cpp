@@ -90,7 +90,9 @@ std::string perRun(const std::vector<BenchRun>& runs, const ListOf& listOf) {
 
 std::vector<JsonObject> judgedFramesOf(const MeasuredErrors& measured) {
     std::vector<JsonObject> objects;
-    for (const FrameError& frame : measured.frames) objects.push_back(toJson(frame));
+    for (const FrameError& frame : measured.frames)
+        if (!isEmpty(frame))
+            objects.push_back(toJson(frame));
     return objects;
 }
 

@@ -185,7 +185,9 @@ ErrorSummary summarize(const MeasuredErrors& measured) {
     summary.psnrDb = std::numeric_limits<double>::infinity();
     std::vector<double> medians;
     for (const FrameError& frame : measured.frames) {
-        medians.push_back(frame.p50Pixels);
+        if (frame.compared > 0)
+            medians.push_back(frame.p50Pixels);
+        summary.frames += isEmpty(frame) ? 0 : 1;
         summary.p99Pixels = std::max(summary.p99Pixels, frame.p99Pixels);
         summary.maxPixels = std::max(summary.maxPixels, frame.maxPixels);
         summary.promisedPixels = std::max(summary.promisedPixels, frame.promisedPixels);

@@ -52,7 +52,7 @@ std::vector<JsonObject> toJson(const std::vector<T>& values) {
     return objects;
 }
 
-void addMeasured(const ErrorSummary& errors, std::size_t frames, JsonObject& json) {
+void addMeasured(const ErrorSummary& errors, JsonObject& json) {
     JsonObject pixels;
     pixels.number("p50", errors.p50Pixels)
         .number("p99", errors.p99Pixels)
@@ -68,7 +68,7 @@ void addMeasured(const ErrorSummary& errors, std::size_t frames, JsonObject& jso
         .number("flip", errors.flip)
         .flag("measuredWithinPromise", errors.withinPromise)
         .number("trianglesMeasured", errors.trianglesMean)
-        .count("framesMeasured", frames);
+        .count("framesMeasured", errors.frames);
 }
 
 JsonObject toJson(const BenchRun& run, const std::vector<UniformLevel>& uniform) {
@@ -108,7 +108,7 @@ JsonObject toJson(const BenchRun& run, const std::vector<UniformLevel>& uniform)
     if (!run.measured || run.measured->frames.empty())
         return json;
     const ErrorSummary errors = summarize(*run.measured);
-    addMeasured(errors, run.measured->frames.size(), json);
+    addMeasured(errors, json);
     if (const auto factor = efficiency(uniform, errors.p99Pixels, errors.trianglesMean))
         json.number("efficiency", *factor);
     if (const auto factor = efficiency(uniform, errors.p99Pixels, errors.trianglesMean,

@@ -374,6 +374,25 @@ TEST(FlightJudge, HoldsASmallerPictureAgainstItsPromiseInPixelsOfTheSizeAskedFor
     EXPECT_FALSE(keepsPromise(judged(320, 180, 1.01 * own))) << "twice as many of its own pixels";
 }
 
+TEST(FlightJudge, AFrameThatShowsNothingDidNotComeClosestToItsPromise) {
+    const auto plane = LiftedPlane::source();
+    ReferenceScene scene{{{{plane, nullptr}, "plane.eyt"}},
+                         std::make_shared<truth::PlacedSurfaces>(
+                             std::vector<truth::PlacedSurface>{{plane, fabric::Mat4(1)}})};
+    const fabric::Camera away{.eye = {32, -60, 30}, .target = {32, -120, 60}, .fovYDegrees = 20};
+    const fabric::Camera there{.eye = {32, -60, 30}, .target = {32, -32, 7}, .fovYDegrees = 20};
+    FlightJudge judge(std::move(scene), fabric::Flight{{{0, away}, {1, there}}},
+                      {.width = 160, .height = 90, .played = 2, .judged = 2}, {});
+    LiftedPlane pictures(0.25F);
+    coordinator::FrameRequest request;
+    request.width = 160;
+    request.height = 90;
+    const auto measured = judge.judge(pictures, pictures, request, [] {}, {});
+    ASSERT_TRUE(measured.ok()) << measured.status();
+    EXPECT_TRUE(isEmpty(measured->frames.at(0)));
+    EXPECT_EQ(measured->worst.at(0).error.seconds, 1);
+}
+
 std::vector<BenchRun> runWith(double maxPixels, double promisedPixels) {
     BenchRun run;
     run.label = "2 px";

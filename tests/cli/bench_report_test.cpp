@@ -232,6 +232,18 @@ TEST(BenchReport, MeasuredErrorsAreThoseOfTheWorstFrames) {
     EXPECT_EQ(test::list(summary, "uniform").size(), 3U);
 }
 
+TEST(BenchReport, FramesThatShowNothingAreNotMeasured) {
+    Report made = madeUpReport();
+    const auto p50 = summarize(*made.runs[0].measured).p50Pixels;
+    for (int i = 0; i < 5; ++i)
+        made.runs[0].measured->frames.insert(made.runs[0].measured->frames.begin(),
+                                             FrameError{.seconds = 0.1 * i});
+    EXPECT_EQ(summarize(*made.runs[0].measured).p50Pixels, p50);
+    const auto run = test::list(parseJson(summaryJson(made)), "runs").at(0);
+    EXPECT_EQ(number(run, "framesMeasured"), 3);
+    EXPECT_THAT(reportPage(made), testing::Not(testing::HasSubstr("\"seconds\": 0.1,")));
+}
+
 TEST(BenchReport, AFrameFartherOffThanItPromisedBreaksThePromise) {
     Report made = madeUpReport();
     for (FrameError& frame : made.runs[0].measured->frames) frame.holes = frame.misplaced = 0;
