@@ -21,8 +21,6 @@
 namespace eyrie::cli::bench {
 namespace {
 
-constexpr double kRasterPixels = 1.0 / 256;
-
 /// An outline may have moved by as much as everything else.
 int edgePixels(double promisedPixels, const truth::Pinhole& camera) {
     return static_cast<int>(

@@ -191,6 +191,7 @@ ErrorSummary summarize(const MeasuredErrors& measured) {
         summary.p99Pixels = std::max(summary.p99Pixels, frame.p99Pixels);
         summary.maxPixels = std::max(summary.maxPixels, frame.maxPixels);
         summary.promisedPixels = std::max(summary.promisedPixels, frame.promisedPixels);
+        summary.roundedPixels = std::max(summary.roundedPixels, kRasterPixels * frame.stretch);
         summary.holes += frame.holes;
         summary.falseHits += frame.falseHits;
         summary.misplaced += frame.misplaced;

@@ -69,6 +69,7 @@ struct ErrorSummary {
     double p99Pixels = 0;       ///< of the worst frame
     double maxPixels = 0;       ///< of the worst frame
     double promisedPixels = 0;  ///< the most that one of them promises
+    double roundedPixels = 0;   ///< the most that rasterisation rounds in one
     std::uint64_t holes = 0;
     std::uint64_t falseHits = 0;
     std::uint64_t misplaced = 0;

@@ -57,7 +57,8 @@ void addMeasured(const ErrorSummary& errors, JsonObject& json) {
     pixels.number("p50", errors.p50Pixels)
         .number("p99", errors.p99Pixels)
         .number("max", errors.maxPixels)
-        .number("promised", errors.promisedPixels);
+        .number("promised", errors.promisedPixels)
+        .number("rounded", errors.roundedPixels);
     json.object("errorPx", pixels)
         .count("holes", errors.holes)
         .count("falseHits", errors.falseHits)

@@ -102,6 +102,21 @@ try {
     "whose pictures are measured, and are off by a share of what they promised",
   );
 
+  eyrie("synth", "mesh", "--size", "2000", "--seed", "3", "-o", "fine.ply");
+  eyrie("import", "mesh", "fine.ply", "-o", "fine.eym");
+  const few = ["--tau", "1", "--frames", "4", "--repeats", "1", "--size", "320x240"];
+  eyrie("bench", "fine.eym", ...few, "--reference", "-o", "fine");
+  const fine = JSON.parse(readFileSync(join(folder, "fine/summary.json"), "utf8")).runs[0].errorPx;
+  check(fine.max > fine.promised, "a promise of next to nothing is less than what is rounded");
+  await browser.page.goto(pathToFileURL(join(folder, "fine/index.html")).href);
+  const [dot] = (await marks(browser.page, "#curve")).filter(({ words }) =>
+    words.includes("the worst pixel of"),
+  );
+  const share = Number(/([\d.]+) % of the .* px promised and the/.exec(dot.words)[1]);
+  check(share <= 100, "both together are not");
+  for (const place of ["#errors-says", "#curve-note"])
+    check((await browser.page.textContent(place)).includes("1/256"), `${place} tells of it`);
+
   eyrie("bench", "--compare", "near", "near", "-o", "compared");
   await browser.page.goto(pathToFileURL(join(folder, "compared/index.html")).href);
   check((await marks(browser.page, "#curve")).length === 4, "a comparison has both of each run");

@@ -207,6 +207,7 @@ Report madeUpReport() {
                                    .flip = 0.02 * share,
                                    .triangles = static_cast<std::size_t>(1000 * share)});
     measured.worst.push_back({measured.frames[1], "made-up picture", "made-up heat map"});
+    measured.frames[2].stretch = 2;
     made.runs[0].measured = measured;
     made.uniform = {{6400, 19200, 0.1125, 0.5}, {1600, 4800, 0.225, 1}, {400, 1200, 0.9, 4}};
     return made;
@@ -218,6 +219,7 @@ TEST(BenchReport, MeasuredErrorsAreThoseOfTheWorstFrames) {
     EXPECT_DOUBLE_EQ(number(run, "errorPx.p50"), 0.06);
     EXPECT_DOUBLE_EQ(number(run, "errorPx.p99"), 0.45);
     EXPECT_DOUBLE_EQ(number(run, "errorPx.max"), 0.9);
+    EXPECT_DOUBLE_EQ(number(run, "errorPx.rounded"), 2. / 256);
     EXPECT_EQ(number(run, "holes"), 3);
     EXPECT_EQ(number(run, "misplaced"), 6);
     EXPECT_DOUBLE_EQ(number(run, "silhouettePx"), 0.72);
