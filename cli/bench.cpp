@@ -124,14 +124,17 @@ absl::Status checkReference(const Options& options) {
     return absl::OkStatus();
 }
 
-/// As asked for or, with a configuration, as many as it uses.
+/// As asked for or, with a configuration, as many as it uses. What only a configuration has is
+/// drawn by at least one (PictureSource::open).
 absl::StatusOr<std::vector<int>> renderersFor(const Options& options) {
     const ConfigOptions& config = options.pictures.config;
-    if (config.file.empty())
-        return options.renderers;
-    ASSIGN_OR_RETURN(const auto configuration, configurationOf(config, true));
     std::vector<int> renderers = options.renderers;
-    std::ranges::replace(renderers, 0, renderersOf(*configuration));
+    if (!config.file.empty()) {
+        ASSIGN_OR_RETURN(const auto configuration, configurationOf(config, true));
+        std::ranges::replace(renderers, 0, renderersOf(*configuration));
+    } else if (config.shown != coordinator::Shown{}) {
+        std::ranges::replace(renderers, 0, 1);
+    }
     return renderers;
 }
 

@@ -53,7 +53,7 @@ std::string budgetLine(const BenchRun& run) {
     const RunSummary s = summarize(run.played);
     const std::string within =
         std::isfinite(s.withinBudget)
-            ? fmt::format("{:.1f} % of frames within {:.0f} ms after the first second",
+            ? fmt::format("{:.1f} % of frames within {:g} ms after the first second",
                           100 * s.withinBudget, 1.2 * run.budgetMilliseconds)
             : "no frame after the first second to tell by, take more --frames";
     return fmt::format("{} ms to hold: {}; promised px p50 {:.2f}, p95 {:.2f}{}\n",

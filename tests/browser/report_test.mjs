@@ -117,6 +117,21 @@ try {
   for (const place of ["#errors-says", "#curve-note"])
     check((await browser.page.textContent(place)).includes("1/256"), `${place} tells of it`);
 
+  eyrie("bench", "fine.eym", ...few, "--reference", "--reference-frames", "1", "-o", "one");
+  await browser.page.goto(pathToFileURL(join(folder, "one/index.html")).href);
+  const ends = await browser.page.$$eval("#errors svg text", (texts) =>
+    texts.slice(-2).map((t) => t.textContent),
+  );
+  check(ends[1] === `${ends[0]} of the flight`, "a single measured frame is at its second");
+
+  const page = readFileSync(join(folder, "near/index.html"), "utf8");
+  const many = JSON.stringify(Array.from({ length: 300000 }, (_, i) => [i % 2, 1, 0, 5, 0]));
+  const long = page.replace(/frames: \[\[[^{]*\]\], errors/, `frames: ${many}, errors`);
+  check(long.length > 1e6, "a page of 150,000 frames a run");
+  writeFileSync(join(folder, "long.html"), long);
+  await browser.page.goto(pathToFileURL(join(folder, "long.html")).href);
+  check((await browser.page.$$("#strips svg")).length === 2, "shows all runs");
+
   eyrie("bench", "--compare", "near", "near", "-o", "compared");
   await browser.page.goto(pathToFileURL(join(folder, "compared/index.html")).href);
   check((await marks(browser.page, "#curve")).length === 4, "a comparison has both of each run");

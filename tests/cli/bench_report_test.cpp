@@ -97,7 +97,7 @@ TEST(BenchReport, ARunAtAFrameTimeSaysHowItWasHeld) {
     EXPECT_EQ(number(run, "withinBudget"), 0);
     EXPECT_EQ(number(run, "tauAchieved.p95"), 0.5);
     EXPECT_THAT(table(held.runs),
-                testing::HasSubstr("33 ms to hold: 0.0 % of frames within 40 ms"));
+                testing::HasSubstr("33 ms to hold: 0.0 % of frames within 39.6 ms"));
     EXPECT_THAT(framesCsv(held.runs), testing::HasSubstr(",33,30.000,0.5,20.000,1.0000\n"));
 }
 

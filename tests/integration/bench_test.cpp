@@ -328,6 +328,13 @@ TEST_F(Bench, RefusesAReferenceThatIsNone) {
     EXPECT_THAT(refusal(path("r.eym"), {"--reference"}, 2), testing::HasSubstr(path("r.ply")));
 }
 
+/// An eye beside the camera is drawn behind a coordinator.
+TEST_F(Bench, ARunSaysWhoDrewIt) {
+    ASSERT_TRUE(succeeded({"bench", dem(), "--eye", "left", "--tau", "4", "--size", "160x90",
+                           "--frames", "2", "--repeats", "1", "-o", path("eye")}));
+    EXPECT_EQ(number(test::list(summaryOf(path("eye")), "runs").at(0), "renderers"), 1);
+}
+
 TEST_F(Bench, RefusesFlightsThatAreNone) {
     const auto refusal = [&](const std::string& keys) {
         const test::Outcome outcome =
