@@ -127,6 +127,14 @@ private:
 
 }  // namespace
 
+std::uint64_t keptBytes(const Played& played) {
+    std::uint64_t sum = 0;
+    for (const coordinator::RenderedFrame& frame : played.kept)
+        sum += frame.image.colour.size() * sizeof(fabric::Rgba) +
+               frame.image.depth.size() * sizeof(float);
+    return sum;
+}
+
 absl::StatusOr<Played> play(PictureSource& pictures, const fabric::Flight& flight,
                             const PlayOptions& options, const std::function<void()>& frameDone,
                             const std::stop_token& stop) {

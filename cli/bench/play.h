@@ -73,6 +73,9 @@ struct Played {
     std::vector<coordinator::RenderedFrame> kept = {};
 };
 
+/// What pictures take that are kept to be judged.
+std::uint64_t keptBytes(const Played& played);
+
 /// Frames of which the stages are measured, or as many as a pass has.
 inline constexpr int kMeasuredFrames = 24;
 
