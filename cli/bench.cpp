@@ -124,14 +124,17 @@ absl::Status checkReference(const Options& options) {
     return absl::OkStatus();
 }
 
-/// As asked for or, with a configuration, as many as it uses.
+/// As asked for or, with a configuration, as many as it uses. What only a configuration has is
+/// drawn by at least one (PictureSource::open).
 absl::StatusOr<std::vector<int>> renderersFor(const Options& options) {
     const ConfigOptions& config = options.pictures.config;
-    if (config.file.empty())
-        return options.renderers;
-    ASSIGN_OR_RETURN(const auto configuration, configurationOf(config, true));
     std::vector<int> renderers = options.renderers;
-    std::ranges::replace(renderers, 0, renderersOf(*configuration));
+    if (!config.file.empty()) {
+        ASSIGN_OR_RETURN(const auto configuration, configurationOf(config, true));
+        std::ranges::replace(renderers, 0, renderersOf(*configuration));
+    } else if (config.shown != coordinator::Shown{}) {
+        std::ranges::replace(renderers, 0, 1);
+    }
     return renderers;
 }
 
@@ -251,7 +254,11 @@ void addBench(CLI::App& app, Run& run) {
         "frame's time is that since the frame before it, and latency, from choosing the view to\n"
         "having its picture, is told beside it. In this process they are the same. The error\n"
         "in it is the one promised for every frame; frames that promise more than was asked count\n"
-        "as framesBeyondTau. At a frame time to hold (--budget-ms), frames do not wait for data.\n"
+        "as framesBeyondTau. At a frame time to hold (--budget-ms), frames do not wait for data, "
+        "and\n"
+        "may be drawn with fewer pixels than --size has: framesSmaller counts these, stretchMax "
+        "and\n"
+        "frames.csv (stretch) tell how far pixels are stretched. Errors are in pixels of --size.\n"
         "With --reference errors are measured, too (errors.csv has each frame's), at a frame time\n"
         "to hold of the pictures that one more pass shows; and a frame that is farther off than "
         "it\n"

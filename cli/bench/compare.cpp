@@ -92,6 +92,21 @@ Figure once(const char* name, const char* unit, double a, double b) {
 /// tau follows from times; and of several renderers each looks closely at tiles of its own.
 bool repeats(const WrittenRun& run) { return run.budgetMilliseconds == 0 && run.renderers <= 1; }
 
+/// Of other frames errors are others.
+bool areOfTheSameFrames(const WrittenRun& a, const WrittenRun& b) {
+    return a.framesMeasured == b.framesMeasured;
+}
+
+/// `figure` is exact or once.
+void addMeasured(const WrittenRun& a, const WrittenRun& b,
+                 Figure figure(const char*, const char*, double, double),
+                 std::vector<Figure>& figures) {
+    if (a.errorP99 && b.errorP99)
+        figures.push_back(figure("error measured, p99", "px", *a.errorP99, *b.errorP99));
+    if (a.errorMax && b.errorMax)
+        figures.push_back(figure("error measured, worst", "px", *a.errorMax, *b.errorMax));
+}
+
 void addDrawn(const WrittenRun& a, const WrittenRun& b, double countNoise,
               std::vector<Figure>& figures) {
     figures.push_back(exact("error promised", "px", a.tauAchievedMax, b.tauAchievedMax));
@@ -99,10 +114,7 @@ void addDrawn(const WrittenRun& a, const WrittenRun& b, double countNoise,
     figures.push_back(counted("triangles, mean", countNoise, a.trianglesMean, b.trianglesMean));
     if (a.pointsMean > 0 || b.pointsMean > 0)
         figures.push_back(counted("points, mean", countNoise, a.pointsMean, b.pointsMean));
-    if (a.errorP99 && b.errorP99)
-        figures.push_back(exact("error measured, p99", "px", *a.errorP99, *b.errorP99));
-    if (a.errorMax && b.errorMax)
-        figures.push_back(exact("error measured, worst", "px", *a.errorMax, *b.errorMax));
+    addMeasured(a, b, areOfTheSameFrames(a, b) ? exact : once, figures);
 }
 
 /// The same of what does not repeat: by how passes spread.
@@ -121,10 +133,7 @@ void addDrawnAnew(const WrittenRun& a, const WrittenRun& b, std::vector<Figure>&
         figures.push_back(ofPasses(
             "points, mean", "", a, b, [](const WrittenRun& run) { return run.pointsMean; },
             [](const PassSummary& pass) { return pass.points; }));
-    if (a.errorP99 && b.errorP99)
-        figures.push_back(once("error measured, p99", "px", *a.errorP99, *b.errorP99));
-    if (a.errorMax && b.errorMax)
-        figures.push_back(once("error measured, worst", "px", *a.errorMax, *b.errorMax));
+    addMeasured(a, b, once, figures);
 }
 
 std::vector<Figure> figuresOf(const WrittenRun& a, const WrittenRun& b, double countNoise) {
@@ -143,11 +152,16 @@ std::vector<Figure> figuresOf(const WrittenRun& a, const WrittenRun& b, double c
 }
 
 bool isSameKind(const WrittenRun& a, const WrittenRun& b) {
-    return a.label == b.label && a.renderers == b.renderers && a.compound == b.compound;
+    // A label that is a frame time does not say from which tau on frames are coarser.
+    const bool isSameTau = a.budgetMilliseconds == 0 || a.tauPixels == b.tauPixels;
+    return a.label == b.label && isSameTau && a.renderers == b.renderers &&
+           a.compound == b.compound;
 }
 
 std::string nameOf(const WrittenRun& run) {
-    return fmt::format("{}, {}", run.label, drawnBy(run.renderers, run.compound));
+    const std::string tau =
+        run.budgetMilliseconds > 0 ? fmt::format(" at {} px or more", run.tauPixels) : "";
+    return fmt::format("{}{}, {}", run.label, tau, drawnBy(run.renderers, run.compound));
 }
 
 void noteRunsOfOneOnly(const WrittenReport& own, const WrittenReport& other,
@@ -206,6 +220,11 @@ absl::StatusOr<Comparison> compare(WrittenReport a, WrittenReport b, bool force)
             if (isSameKind(run, other)) {
                 comparison.runs.push_back(
                     {run, other, figuresOf(run, other, countsRepeat ? 0 : kShareByOcclusion)});
+                if (run.errorP99 && other.errorP99 && !areOfTheSameFrames(run, other))
+                    comparison.notes.push_back(fmt::format(
+                        "{}: errors were measured of {} frames in {}, of {} in {}; those of other "
+                        "frames are others",
+                        nameOf(run), run.framesMeasured, a.name, other.framesMeasured, b.name));
                 if (run.framesInFlight != other.framesInFlight)
                     comparison.notes.push_back(fmt::format(
                         "{}: {} has {} frames in flight, {} {}; the times of frames "

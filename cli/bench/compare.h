@@ -64,7 +64,8 @@ struct Comparison {
     std::vector<std::string> notes;   ///< what a person should know before believing it
 };
 
-/// Lays runs of the same label, number of processes and compound side by side. InvalidArgument when
+/// Lays runs of the same label, number of processes and compound, and at a frame time of the same
+/// tau, side by side. InvalidArgument when
 /// scene, flight, size or number of frames differ (`force` makes it a note) or no run is in both.
 absl::StatusOr<Comparison> compare(WrittenReport a, WrittenReport b, bool force);
 

@@ -21,8 +21,6 @@
 namespace eyrie::cli::bench {
 namespace {
 
-constexpr double kRasterPixels = 1.0 / 256;
-
 /// An outline may have moved by as much as everything else.
 int edgePixels(double promisedPixels, const truth::Pinhole& camera) {
     return static_cast<int>(
@@ -33,20 +31,44 @@ std::string bytesOf(const std::vector<std::byte>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// How near to its promise, or how far beyond: what makes a frame worth looking at.
-double share(const FrameError& error) { return error.maxPixels / error.promisedPixels; }
+/// Binary digits mirrored at the point: 1/2, 1/4, 3/4, 1/8, ... of 1, 2, 3, 4, ... (van der Corput,
+/// "Verteilungsfunktionen", 1935).
+double radicalInverse(int index) {
+    double value = 0;
+    for (double digit = 0.5; index > 0; index /= 2, digit /= 2) value += digit * (index % 2);
+    return value;
+}
+
+/// Where in its part of the flight a frame is judged, 0 to 1. An even stride may be in step with
+/// what a flight repeats, as the shots of `worst`; it is off the halves, where these change.
+double placeInPart(int part) { return std::fmod(radicalInverse(part + 1) + 1.0 / 16, 1); }
+
+/// What a frame's surface may be off.
+double allowedPixels(const FrameError& error) {
+    return error.promisedPixels + kRasterPixels * error.stretch;
+}
+
+/// How near to its promise, or how far beyond: what makes a frame worth looking at. Less than that
+/// of any other of one that is empty.
+double share(const FrameError& error) {
+    return isEmpty(error) ? -1 : error.maxPixels / allowedPixels(error);
+}
 
 }  // namespace
 
 bool keepsPromise(const FrameError& error) {
-    return error.maxPixels <= error.promisedPixels + kRasterPixels * error.stretch &&
-           error.holes == 0 && error.falseHits == 0 && error.misplaced == 0;
+    return error.maxPixels <= allowedPixels(error) && error.holes == 0 && error.falseHits == 0 &&
+           error.misplaced == 0;
 }
 
 std::vector<int> judgedFrames(const JudgedFrames& frames) {
     const int judged = std::min(frames.judged, frames.played);
     std::vector<int> indices;
-    for (int i = 0; i < judged; ++i) indices.push_back((2 * i + 1) * frames.played / (2 * judged));
+    for (int i = 0; i < judged; ++i) {
+        const int first = i * frames.played / judged;
+        const int count = (i + 1) * frames.played / judged - first;
+        indices.push_back(first + static_cast<int>(placeInPart(i) * count));
+    }
     return indices;
 }
 

@@ -24,11 +24,11 @@ struct JudgedFrames {
     int width = 1280;  ///< of the pictures, pixels
     int height = 720;
     int played = 120;  ///< frames of one pass along the flight
-    int judged = 6;    ///< of these, evenly spread; all where there are fewer
+    int judged = 6;    ///< of these, one of each equal part; all where there are fewer
     int keptRuns = 0;  ///< runs whose pictures are kept until they are judged
 };
 
-/// Which of a pass's frames are judged, ascending.
+/// Which of a pass's frames are judged, ascending: of each part another place.
 std::vector<int> judgedFrames(const JudgedFrames& frames);
 
 /// What FlightJudge takes: of each frame 20 bytes a pixel, which it keeps, and while it judges one

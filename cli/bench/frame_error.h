@@ -32,6 +32,14 @@ struct FrameError {
     bool complete = true;       ///< no coarser data stand for some that were not loaded yet
 };
 
+/// What rasterisation rounds, in pixels as they are drawn.
+inline constexpr double kRasterPixels = 1.0 / 256;
+
+/// Whether neither picture nor source shows anything: there is nothing to measure.
+inline bool isEmpty(const FrameError& error) {
+    return error.compared == 0 && error.holes == 0 && error.falseHits == 0 && error.misplaced == 0;
+}
+
 /// Whether a frame's surface is nowhere farther off than it promises, but for the 1/256 of its own
 /// pixels that rasterisation rounds; and nothing is missing, too much, or shown before what hides
 /// it.

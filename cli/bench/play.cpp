@@ -26,6 +26,14 @@ absl::Status nothingSeen(const fabric::Box& bounds) {
         bounds.min.x, bounds.min.y, bounds.min.z, bounds.max.x, bounds.max.y, bounds.max.z));
 }
 
+/// Errors in pixels that are `stretch` times smaller.
+fabric::FrameStatistics ofSizeAskedFor(fabric::FrameStatistics statistics, double stretch) {
+    statistics.tauAchievedPixels *= stretch;
+    if (statistics.budget)
+        statistics.budget->tauPixels *= stretch;
+    return statistics;
+}
+
 /// A pass over the flight's frames; their pictures are timed, and nothing else.
 class Pass {
 public:
@@ -45,11 +53,11 @@ public:
             const Milliseconds latency = frame.arrived - frame.begun;
             const Milliseconds interval = frame.arrived - std::exchange(last, frame.arrived);
             const Milliseconds taken = sequence.atOnce == 1 ? latency : interval;
-            fabric::FrameStatistics statistics = frame.drawn->statistics;
-            statistics.tauAchievedPixels *=
+            const double stretched =
                 stretch(frame.drawn->image.area, request.width, request.height);
-            played_.frames.push_back(
-                {pass, seconds, taken.count(), std::move(statistics), latency.count()});
+            played_.frames.push_back({pass, seconds, taken.count(),
+                                      ofSizeAskedFor(frame.drawn->statistics, stretched),
+                                      latency.count(), stretched});
             played_.device = frame.drawn->device;
             drawing += taken.count();
             frameDone_();
@@ -118,6 +126,14 @@ private:
 };
 
 }  // namespace
+
+std::uint64_t keptBytes(const Played& played) {
+    std::uint64_t sum = 0;
+    for (const coordinator::RenderedFrame& frame : played.kept)
+        sum += frame.image.colour.size() * sizeof(fabric::Rgba) +
+               frame.image.depth.size() * sizeof(float);
+    return sum;
+}
 
 absl::StatusOr<Played> play(PictureSource& pictures, const fabric::Flight& flight,
                             const PlayOptions& options, const std::function<void()>& frameDone,

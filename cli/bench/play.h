@@ -40,6 +40,7 @@ struct PlayedFrame {
     /// From choosing the view to having all of the picture: with one in flight the same as
     /// milliseconds.
     double latencyMilliseconds = 0;
+    double stretch = 1;  ///< of the picture's pixels to those asked for
 };
 
 /// Whether anything of the scene is in the picture's view.
@@ -52,6 +53,9 @@ inline bool showsSomething(const PlayedFrame& frame) {
 inline bool isBeyondTau(const PlayedFrame& frame) {
     return frame.statistics.tauAchievedPixels > frame.statistics.tauAskedPixels;
 }
+
+/// Whether it has fewer pixels than were asked for, to hold a frame time.
+inline bool isSmaller(const PlayedFrame& frame) { return frame.stretch > 1; }
 
 struct Played {
     std::vector<PlayedFrame> frames;      ///< pass by pass
@@ -68,6 +72,9 @@ struct Played {
     /// measured ones: reading depths is in no frame's time. Errors in pixels of their own size.
     std::vector<coordinator::RenderedFrame> kept = {};
 };
+
+/// What pictures take that are kept to be judged.
+std::uint64_t keptBytes(const Played& played);
 
 /// Frames of which the stages are measured, or as many as a pass has.
 inline constexpr int kMeasuredFrames = 24;

@@ -142,7 +142,7 @@ void addReferenceOptions(CLI::App& command, ReferenceOptions& options) {
         "precision, and compare with uniform decimation");
     command
         .add_option("--reference-frames", options.frames,
-                    "How many of a flight's frames, evenly spread")
+                    "How many of a flight's frames, one of each equal part of it")
         ->check(CLI::Range(1, 1000))
         ->needs(reference)
         ->capture_default_str();

@@ -38,16 +38,27 @@ std::string budgetColumns(const std::optional<fabric::BudgetUse>& budget) {
                   : ",,";
 }
 
+/// Empty where no frame was drawn smaller than asked for.
+std::string smallerWords(const RunSummary& s, std::size_t frames) {
+    return s.framesSmaller == 0
+               ? ""
+               : fmt::format(
+                     "; {} of {} frames were drawn smaller, their pixels stretched up to "
+                     "{:.2f} times",
+                     s.framesSmaller, frames, s.stretchMax);
+}
+
 /// What became of the frame time of a run, for a terminal.
 std::string budgetLine(const BenchRun& run) {
     const RunSummary s = summarize(run.played);
     const std::string within =
         std::isfinite(s.withinBudget)
-            ? fmt::format("{:.1f} % of frames within {:.0f} ms after the first second",
+            ? fmt::format("{:.1f} % of frames within {:g} ms after the first second",
                           100 * s.withinBudget, 1.2 * run.budgetMilliseconds)
             : "no frame after the first second to tell by, take more --frames";
-    return fmt::format("{} ms to hold: {}; promised px p50 {:.2f}, p95 {:.2f}\n",
-                       run.budgetMilliseconds, within, s.tauAchieved.p50, s.tauAchieved.p95);
+    return fmt::format("{} ms to hold: {}; promised px p50 {:.2f}, p95 {:.2f}{}\n",
+                       run.budgetMilliseconds, within, s.tauAchieved.p50, s.tauAchieved.p95,
+                       smallerWords(s, run.played.frames.size()));
 }
 
 JsonObject toJson(const FrameError& error) {
@@ -79,7 +90,9 @@ std::string perRun(const std::vector<BenchRun>& runs, const ListOf& listOf) {
 
 std::vector<JsonObject> judgedFramesOf(const MeasuredErrors& measured) {
     std::vector<JsonObject> objects;
-    for (const FrameError& frame : measured.frames) objects.push_back(toJson(frame));
+    for (const FrameError& frame : measured.frames)
+        if (!isEmpty(frame))
+            objects.push_back(toJson(frame));
     return objects;
 }
 
@@ -121,7 +134,7 @@ std::string framesCsv(const std::vector<BenchRun>& runs) {
         "nodes,"
         "nodesHidden,pagesLoaded,bytesLoaded,tauAchieved,beyondTau,complete,normalDegrees,"
         "normalMeanDegrees,budgetMs,predictedMs,"
-        "budgetTau,latency\n";
+        "budgetTau,latency,stretch\n";
     for (const BenchRun& run : runs)
         for (const PlayedFrame& frame : run.played.frames) {
             const fabric::FrameStatistics& s = frame.statistics;
@@ -129,12 +142,12 @@ std::string framesCsv(const std::vector<BenchRun>& runs) {
             csv += fmt::format(
                 "{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{},{:d},{:d},"
                 "{},{},{},"
-                "{:.3f}\n",
+                "{:.3f},{:.4f}\n",
                 run.label, run.tauPixels, run.renderers, frame.pass, frame.seconds,
                 frame.milliseconds, ms.cull, ms.draw, ms.readback, ms.encode, s.triangles, s.points,
                 s.nodes, s.nodesHidden, s.pagesLoaded, s.bytesLoaded, s.tauAchievedPixels,
                 isBeyondTau(frame), s.complete, s.normalErrorDegrees, s.normalErrorMeanDegrees,
-                budgetColumns(s.budget), frame.latencyMilliseconds);
+                budgetColumns(s.budget), frame.latencyMilliseconds, frame.stretch);
         }
     return csv;
 }

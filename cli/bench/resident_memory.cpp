@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 namespace eyrie::cli::bench {
@@ -61,6 +62,7 @@ std::uint64_t availableBytes() {
 }
 
 void resetPeakResidentBytes() {
+    malloc_trim(0);
     for (const int id : processes()) std::ofstream(fmt::format("/proc/{}/clear_refs", id)) << "5";
 }
 

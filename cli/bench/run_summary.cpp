@@ -42,6 +42,12 @@ double taken(const PlayedFrame& frame) { return frame.milliseconds; }
 
 double latency(const PlayedFrame& frame) { return frame.latencyMilliseconds; }
 
+double triangles(const PlayedFrame& frame) {
+    return static_cast<double>(frame.statistics.triangles);
+}
+
+double points(const PlayedFrame& frame) { return static_cast<double>(frame.statistics.points); }
+
 fabric::StageMilliseconds meansOf(const Played& played) {
     fabric::StageMilliseconds means;
     means.cull = mean(played, [](auto& f) { return f.statistics.milliseconds.cull; });
@@ -123,8 +129,8 @@ void count(const PlayedFrame& frame, RunSummary& summary) {
         std::max(summary.normalErrorMeanDegreesMax, statistics.normalErrorMeanDegrees);
     summary.framesBeyond += isBeyondTau(frame) ? 1 : 0;
     summary.framesEmpty += showsSomething(frame) ? 0 : 1;
-    summary.trianglesMean += static_cast<double>(statistics.triangles);
-    summary.pointsMean += static_cast<double>(statistics.points);
+    summary.framesSmaller += isSmaller(frame) ? 1 : 0;
+    summary.stretchMax = std::max(summary.stretchMax, frame.stretch);
 }
 
 /// Of the line through both, logarithms on both axes. Precondition: the errors differ.
@@ -168,9 +174,9 @@ RunSummary summarize(const Played& played) {
     stages.fill = median(played.stages, &fabric::StageMilliseconds::fill);
     summary.means = meansOf(played);
     summary.passes = ofEachPass(played);
+    summary.trianglesMean = mean(played, triangles);
+    summary.pointsMean = mean(played, points);
     for (const PlayedFrame& frame : played.frames) count(frame, summary);
-    summary.trianglesMean /= static_cast<double>(played.frames.size());
-    summary.pointsMean /= static_cast<double>(played.frames.size());
     return summary;
 }
 
@@ -179,10 +185,13 @@ ErrorSummary summarize(const MeasuredErrors& measured) {
     summary.psnrDb = std::numeric_limits<double>::infinity();
     std::vector<double> medians;
     for (const FrameError& frame : measured.frames) {
-        medians.push_back(frame.p50Pixels);
+        if (frame.compared > 0)
+            medians.push_back(frame.p50Pixels);
+        summary.frames += isEmpty(frame) ? 0 : 1;
         summary.p99Pixels = std::max(summary.p99Pixels, frame.p99Pixels);
         summary.maxPixels = std::max(summary.maxPixels, frame.maxPixels);
         summary.promisedPixels = std::max(summary.promisedPixels, frame.promisedPixels);
+        summary.roundedPixels = std::max(summary.roundedPixels, kRasterPixels * frame.stretch);
         summary.holes += frame.holes;
         summary.falseHits += frame.falseHits;
         summary.misplaced += frame.misplaced;
@@ -191,6 +200,8 @@ ErrorSummary summarize(const MeasuredErrors& measured) {
         summary.ssim = std::min(summary.ssim, frame.ssim);
         summary.flip = std::max(summary.flip, frame.flip);
         summary.withinPromise = summary.withinPromise && keepsPromise(frame);
+        summary.trianglesMean +=
+            static_cast<double>(frame.triangles) / static_cast<double>(measured.frames.size());
     }
     summary.p50Pixels = quantile(std::move(medians), 0.5);
     return summary;

@@ -41,14 +41,16 @@ struct RunSummary {
     /// frames with measured stages share it, total the frame's latency.
     fabric::StageMilliseconds means;
     double fpsMedian = 0;
-    double trianglesMean = 0;
-    double pointsMean = 0;  ///< drawn in place of triangles
+    double trianglesMean = 0;  ///< of the measured passes
+    double pointsMean = 0;     ///< of these, drawn in place of triangles
     std::uint64_t pagesLoaded = 0;
     std::uint64_t bytesLoaded = 0;           ///< as stored
     std::uint64_t bytesLoadedFirstPass = 0;  ///< of these
     double tauAchievedMax = 0;               ///< the error promised for every frame, pixels
     std::uint64_t framesBeyond = 0;          ///< that promise more than was asked, and say so
     std::uint64_t framesEmpty = 0;           ///< that show nothing of the scene
+    std::uint64_t framesSmaller = 0;         ///< drawn with fewer pixels than were asked for
+    double stretchMax = 1;                   ///< of the smallest of them
     /// Of meshes, of the worst frame: fabric::FrameStatistics' of the same names.
     double normalErrorDegreesMax = 0;
     double normalErrorMeanDegreesMax = 0;
@@ -62,10 +64,12 @@ RunSummary summarize(const Played& played);
 
 /// Of all frames of a flight that were held against the source.
 struct ErrorSummary {
-    double p50Pixels = 0;       ///< median of the frames'
+    std::uint64_t frames = 0;   ///< that are not empty
+    double p50Pixels = 0;       ///< median of the frames' that show something of the source
     double p99Pixels = 0;       ///< of the worst frame
     double maxPixels = 0;       ///< of the worst frame
     double promisedPixels = 0;  ///< the most that one of them promises
+    double roundedPixels = 0;   ///< the most that rasterisation rounds in one
     std::uint64_t holes = 0;
     std::uint64_t falseHits = 0;
     std::uint64_t misplaced = 0;
@@ -74,6 +78,7 @@ struct ErrorSummary {
     double ssim = 1;              ///< of the worst frame
     double flip = 0;              ///< of the worst frame
     bool withinPromise = true;    ///< all frames do: keepsPromise
+    double trianglesMean = 0;     ///< and points
 };
 
 /// Precondition: measured.frames is not empty.

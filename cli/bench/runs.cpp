@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/runs.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -48,6 +50,11 @@ absl::Status playRun(const RunPlan& plan, BenchRun& run, const std::function<voi
     return absl::OkStatus();
 }
 
+/// What runs before keep is none of a run's.
+void leaveOutKept(const std::vector<BenchRun>& before, std::uint64_t& bytes) {
+    for (const BenchRun& run : before) bytes -= std::min(bytes, keptBytes(run.played));
+}
+
 }  // namespace
 
 std::string drawnBy(int renderers, const std::string& compound) {
@@ -75,6 +82,7 @@ absl::StatusOr<std::vector<BenchRun>> playRuns(const RunPlan& plan, const std::s
             int done = 0;
             const auto frameDone = [&] { progress(stage, static_cast<double>(++done) / frames); };
             RETURN_IF_ERROR(playRun(plan, run, frameDone, stop));
+            leaveOutKept(runs, run.played.peakResidentBytes);
             runs.push_back(std::move(run));
         }
     return runs;

@@ -98,6 +98,7 @@ PassSummary passOf(const Field& field) {
 WrittenRun runOf(const Field& field) {
     WrittenRun run;
     run.label = field.at("label").text();
+    run.tauPixels = field.at("tau").number();
     run.renderers = field.at("renderers").count();
     run.compound = field.at("compound").text();
     if (field.has("framesInFlight"))
@@ -119,6 +120,7 @@ WrittenRun runOf(const Field& field) {
     if (field.has("errorPx")) {
         run.errorP99 = field.at("errorPx").at("p99").number();
         run.errorMax = field.at("errorPx").at("max").number();
+        run.framesMeasured = field.at("framesMeasured").count();
     }
     return run;
 }

@@ -15,6 +15,7 @@ namespace eyrie::cli::bench {
 /// Of a run, what can be laid beside another's. Bounds may be infinite.
 struct WrittenRun {
     std::string label;
+    double tauPixels = 0;
     int renderers = 0;
     std::string compound;
     int framesInFlight = 1;
@@ -32,6 +33,7 @@ struct WrittenRun {
     double peakResidentBytes = 0;
     std::optional<double> errorP99;  ///< pixels, where they were measured
     std::optional<double> errorMax;
+    int framesMeasured = 0;
 };
 
 struct WrittenReport {

@@ -52,12 +52,13 @@ std::vector<JsonObject> toJson(const std::vector<T>& values) {
     return objects;
 }
 
-void addMeasured(const ErrorSummary& errors, std::size_t frames, JsonObject& json) {
+void addMeasured(const ErrorSummary& errors, JsonObject& json) {
     JsonObject pixels;
     pixels.number("p50", errors.p50Pixels)
         .number("p99", errors.p99Pixels)
         .number("max", errors.maxPixels)
-        .number("promised", errors.promisedPixels);
+        .number("promised", errors.promisedPixels)
+        .number("rounded", errors.roundedPixels);
     json.object("errorPx", pixels)
         .count("holes", errors.holes)
         .count("falseHits", errors.falseHits)
@@ -67,7 +68,8 @@ void addMeasured(const ErrorSummary& errors, std::size_t frames, JsonObject& jso
         .number("ssim", errors.ssim)
         .number("flip", errors.flip)
         .flag("measuredWithinPromise", errors.withinPromise)
-        .count("framesMeasured", frames);
+        .number("trianglesMeasured", errors.trianglesMean)
+        .count("framesMeasured", errors.frames);
 }
 
 JsonObject toJson(const BenchRun& run, const std::vector<UniformLevel>& uniform) {
@@ -101,16 +103,17 @@ JsonObject toJson(const BenchRun& run, const std::vector<UniformLevel>& uniform)
         .count("framesEmpty", summary.framesEmpty);
     if (run.budgetMilliseconds > 0)
         json.number("budgetMs", run.budgetMilliseconds)
-            .number("withinBudget", summary.withinBudget);
+            .number("withinBudget", summary.withinBudget)
+            .count("framesSmaller", summary.framesSmaller)
+            .number("stretchMax", summary.stretchMax);
     if (!run.measured || run.measured->frames.empty())
         return json;
     const ErrorSummary errors = summarize(*run.measured);
-    addMeasured(errors, run.measured->frames.size(), json);
-    const double drawn = summary.trianglesMean + summary.pointsMean;
-    if (const auto factor = efficiency(uniform, errors.p99Pixels, drawn))
+    addMeasured(errors, json);
+    if (const auto factor = efficiency(uniform, errors.p99Pixels, errors.trianglesMean))
         json.number("efficiency", *factor);
-    if (const auto factor =
-            efficiency(uniform, errors.p99Pixels, drawn, &UniformLevel::trianglesWhole))
+    if (const auto factor = efficiency(uniform, errors.p99Pixels, errors.trianglesMean,
+                                       &UniformLevel::trianglesWhole))
         json.number("efficiencyWhole", *factor);
     return json;
 }

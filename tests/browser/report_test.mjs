@@ -79,12 +79,58 @@ try {
     atATime.length === 2 && atATime.every(({ words }) => words.includes("95 in 100")),
     "those that hold a time stand where 95 in 100 of their warm frames are",
   );
+  const shrunk = readFileSync(join(folder, "held/index.html"), "utf8").replaceAll(
+    /"framesSmaller": \d+, "stretchMax": [\d.]+/g,
+    '"framesSmaller": 7, "stretchMax": 2',
+  );
+  writeFileSync(join(folder, "shrunk.html"), shrunk);
+  await browser.page.goto(pathToFileURL(join(folder, "shrunk.html")).href);
+  check(
+    (await marks(browser.page, "#curve")).filter(({ words }) =>
+      words.includes("7 of 18 frames were drawn smaller, their pixels stretched up to 2 times"),
+    ).length === 2,
+    "and say how many of their frames were drawn smaller, and by how much",
+  );
+  check(
+    (await browser.page.textContent("#curve-says")).includes("At 10 ms, one process, 7 of 18"),
+    "as the words above them do",
+  );
 
   const measured = all.filter(({ words }) => /^(10|1000) ms: the worst pixel of/.test(words));
   check(
     measured.length === 2 && measured.every(({ words }) => / % of the .* px promised/.test(words)),
     "whose pictures are measured, and are off by a share of what they promised",
   );
+
+  eyrie("synth", "mesh", "--size", "2000", "--seed", "3", "-o", "fine.ply");
+  eyrie("import", "mesh", "fine.ply", "-o", "fine.eym");
+  const few = ["--tau", "1", "--frames", "4", "--repeats", "1", "--size", "320x240"];
+  eyrie("bench", "fine.eym", ...few, "--reference", "-o", "fine");
+  const fine = JSON.parse(readFileSync(join(folder, "fine/summary.json"), "utf8")).runs[0].errorPx;
+  check(fine.max > fine.promised, "a promise of next to nothing is less than what is rounded");
+  await browser.page.goto(pathToFileURL(join(folder, "fine/index.html")).href);
+  const [dot] = (await marks(browser.page, "#curve")).filter(({ words }) =>
+    words.includes("the worst pixel of"),
+  );
+  const share = Number(/([\d.]+) % of the .* px promised and the/.exec(dot.words)[1]);
+  check(share <= 100, "both together are not");
+  for (const place of ["#errors-says", "#curve-note"])
+    check((await browser.page.textContent(place)).includes("1/256"), `${place} tells of it`);
+
+  eyrie("bench", "fine.eym", ...few, "--reference", "--reference-frames", "1", "-o", "one");
+  await browser.page.goto(pathToFileURL(join(folder, "one/index.html")).href);
+  const ends = await browser.page.$$eval("#errors svg text", (texts) =>
+    texts.slice(-2).map((t) => t.textContent),
+  );
+  check(ends[1] === `${ends[0]} of the flight`, "a single measured frame is at its second");
+
+  const page = readFileSync(join(folder, "near/index.html"), "utf8");
+  const many = JSON.stringify(Array.from({ length: 300000 }, (_, i) => [i % 2, 1, 0, 5, 0]));
+  const long = page.replace(/frames: \[\[[^{]*\]\], errors/, `frames: ${many}, errors`);
+  check(long.length > 1e6, "a page of 150,000 frames a run");
+  writeFileSync(join(folder, "long.html"), long);
+  await browser.page.goto(pathToFileURL(join(folder, "long.html")).href);
+  check((await browser.page.$$("#strips svg")).length === 2, "shows all runs");
 
   eyrie("bench", "--compare", "near", "near", "-o", "compared");
   await browser.page.goto(pathToFileURL(join(folder, "compared/index.html")).href);

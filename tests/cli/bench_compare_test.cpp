@@ -125,6 +125,30 @@ TEST_F(CompareReports, WithoutOcclusionTrianglesAreHeldToTheLast) {
     EXPECT_EQ(verdictOf(compared(before, after).value(), "triangles, mean"), Verdict::More);
 }
 
+Report reportMeasuring(int frames, double maxPixels) {
+    Report report = reportTaking(20);
+    for (BenchRun& run : report.runs)
+        run.measured = MeasuredErrors{
+            std::vector<FrameError>(static_cast<std::size_t>(frames),
+                                    {.promisedPixels = 1, .maxPixels = maxPixels, .compared = 9}),
+            {}};
+    return report;
+}
+
+TEST_F(CompareReports, ErrorsMeasuredOfOtherFramesAreNoDifference) {
+    const auto same = compared(reportMeasuring(6, 0.5), reportMeasuring(6, 0.6));
+    ASSERT_TRUE(same.ok()) << same.status();
+    EXPECT_EQ(verdictOf(*same, "error measured, worst"), Verdict::More);
+    EXPECT_THAT(same->notes, testing::IsEmpty());
+    const auto more = compared(reportMeasuring(6, 0.5), reportMeasuring(24, 0.6));
+    ASSERT_TRUE(more.ok()) << more.status();
+    EXPECT_EQ(verdictOf(*more, "error measured, worst"), Verdict::NotRepeated);
+    EXPECT_EQ(countBeyondNoise(*more), 0);
+    EXPECT_THAT(more->notes,
+                testing::Each(testing::ContainsRegex("measured of 6 frames in .*, of 24 in ")));
+    EXPECT_EQ(more->notes.size(), 2U);
+}
+
 /// As reportTaking, at a frame time to hold or by two renderers; tau and triangles go up and down
 /// by a twentieth from frame to frame, and are so many times as much.
 Report reportOfFreeTau(double milliseconds, int renderers, unsigned seed, double times = 1) {
@@ -133,6 +157,8 @@ Report reportOfFreeTau(double milliseconds, int renderers, unsigned seed, double
     Report report = reportTaking(20);
     for (BenchRun& run : report.runs) {
         run.budgetMilliseconds = milliseconds;
+        if (milliseconds > 0)
+            run.label = "33 ms";
         run.renderers = renderers;
         for (PlayedFrame& frame : run.played.frames) {
             frame.statistics.tauAchievedPixels = times * around(random);
@@ -155,6 +181,18 @@ TEST_F(CompareReports, WhatDoesNotRepeatIsJudgedByHowPassesSpread) {
         EXPECT_EQ(verdictOf(*more, "error promised, p95"), Verdict::More);
         EXPECT_EQ(verdictOf(*more, "triangles, mean"), Verdict::More);
     }
+}
+
+TEST_F(CompareReports, FrameTimesHeldFromAnotherTauOnAreNotTheSame) {
+    const Report before = reportOfFreeTau(33, 0, 1);
+    Report after = before;
+    after.runs[1].tauPixels = 8;
+    const auto mixed = compared(before, after);
+    ASSERT_TRUE(mixed.ok()) << mixed.status();
+    EXPECT_EQ(mixed->runs.size(), 1U);
+    EXPECT_THAT(mixed->notes, testing::ElementsAre(
+                                  testing::ContainsRegex("only .*a.json has 33 ms at 4 px or more"),
+                                  testing::ContainsRegex("only .*b.json has 33 ms at 8 px")));
 }
 
 TEST_F(CompareReports, SayWhereWhatIsHiddenWasNotLeftOutAlike) {

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <memory>
+#include <vector>
 
 #include <gmock/gmock.h>
 
 #include "cli/bench/flights.h"
 #include "cli/bench/play.h"
+#include "cli/bench/resident_memory.h"
 
 namespace eyrie::cli::bench {
 namespace {
@@ -27,6 +31,9 @@ public:
         frame.statistics.nodes = 1;
         frame.statistics.tauAskedPixels = request.tauPixels;
         frame.statistics.tauAchievedPixels = request.camera.eye.x;
+        if (request.budgetMilliseconds)
+            frame.statistics.budget =
+                fabric::BudgetUse{*request.budgetMilliseconds, 30, request.tauPixels, 100, 1};
         return frame;
     }
     int framesAtOnce() const override { return atOnce_; }
@@ -116,6 +123,7 @@ TEST(BenchPlay, KeepsPicturesAndDepthsOfAPassOfItsOwn) {
         ASSERT_TRUE(played.ok()) << played.status();
         EXPECT_EQ(errors(*played), errors(*expected)) << "which are the passes that are measured";
         ASSERT_EQ(played->kept.size(), 3U);
+        EXPECT_EQ(keptBytes(*played), 3U * 8 * options.request.width * options.request.height);
         for (std::size_t i = 0; i < 3; ++i) {
             const auto index = static_cast<std::size_t>(options.keeps[i]);
             EXPECT_TRUE(played->kept[i].image.hasDepth());
@@ -139,9 +147,31 @@ TEST(BenchPlay, TellsErrorsInPixelsOfTheSizeAskedForAndKeepsThemInThePicturesOwn
         return played.frames[0].statistics.tauAchievedPixels;
     };
     EXPECT_EQ(promised(*smaller), 2 * promised(*whole));
+    EXPECT_EQ(smaller->frames[0].statistics.budget->tauPixels, 2 * options.request.tauPixels);
+    EXPECT_EQ(smaller->frames[0].stretch, 2);
+    EXPECT_EQ(whole->frames[0].stretch, 1);
     EXPECT_EQ(smaller->kept[0].statistics.tauAchievedPixels, promised(*whole));
     EXPECT_EQ(stretch({0, 0, 905, 509}, 1280, 720), 720. / 509) << "the longer way";
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // those keep what is freed
+/// As a run before this one has, in blocks too small to be the system's own.
+TEST(ResidentMemory, PeaksDoNotHaveWhatWasFreedBefore) {
+    constexpr std::size_t kBlock = 4096;
+    constexpr std::size_t kBlocks = 32768;
+    const auto last = [] {
+        std::vector<std::unique_ptr<char[]>> blocks;
+        for (std::size_t i = 0; i < kBlocks; ++i) {
+            blocks.push_back(std::make_unique<char[]>(kBlock));
+            std::fill_n(blocks.back().get(), kBlock, 'x');
+        }
+        return std::move(blocks.back());  // above all others, which cannot be cut off
+    }();
+    const std::uint64_t before = peakResidentBytes();
+    resetPeakResidentBytes();
+    EXPECT_LT(peakResidentBytes() + kBlock * kBlocks / 2, before);
+}
+#endif
 
 TEST(BenchPlay, AFrameThatCannotBeHadEndsItWithItsSecond) {
     for (const int atOnce : {1, 3}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `eyrie bench --reference` holds pictures against.
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -12,6 +13,7 @@
 
 #include "cli/bench/errors_csv.h"
 #include "cli/bench/flight_judge.h"
+#include "cli/bench/flights.h"
 #include "cli/bench/reference.h"
 #include "cli/bench/uniform_levels.h"
 #include "cli/source_record.h"
@@ -271,6 +273,37 @@ TEST(UniformLevels, OfAPlaneHaveNoError) {
     EXPECT_TRUE(levels->empty());
 }
 
+TEST(JudgedFrames, AreOneOfEachPartOfTheFlight) {
+    for (const int played : {1, 5, 6, 7, 24, 120, 1000})
+        for (const int count : {1, 4, 6, 7, 1000}) {
+            const std::vector<int> frames = judgedFrames({.played = played, .judged = count});
+            const int parts = std::min(played, count);
+            ASSERT_EQ(frames.size(), static_cast<std::size_t>(parts));
+            for (int i = 0; i < parts; ++i) {
+                EXPECT_GE(frames[static_cast<std::size_t>(i)], i * played / parts);
+                EXPECT_LT(frames[static_cast<std::size_t>(i)], (i + 1) * played / parts);
+            }
+        }
+}
+
+/// Of which every second is of another kind: turned back, or far away.
+TEST(JudgedFrames, OfTheWorstFlightAreOfShotsOfBothKinds) {
+    const fabric::Flight flight = worst(fabric::Box{{0, 0, 0}, {10, 10, 5}});
+    for (const int played : {12, 24, 48, 60, 120, 240}) {
+        std::array<int, 6> seen{};  // of each third, even and odd
+        for (const int frame : judgedFrames({.played = played, .judged = 6})) {
+            const double seconds = flight.seconds() * frame / (played - 1);
+            const int shot = std::min(static_cast<int>(seconds / 0.5), 23);
+            ++seen.at(static_cast<std::size_t>(shot / 8 * 2 + shot % 2));
+        }
+        EXPECT_GT(seen[0] + seen[2] + seen[4], 0) << played;
+        EXPECT_GT(seen[1] + seen[3] + seen[5], 0) << played;
+        if (played >= 24) {
+            EXPECT_THAT(seen, testing::Each(1)) << played;
+        }
+    }
+}
+
 /// A plane whose pictures have it `lift` higher.
 class LiftedPlane final : public PictureSource {
 public:
@@ -339,6 +372,25 @@ TEST(FlightJudge, HoldsASmallerPictureAgainstItsPromiseInPixelsOfTheSizeAskedFor
     EXPECT_TRUE(keepsPromise(judged(160, 90, 1.01 * own)));
     EXPECT_FALSE(keepsPromise(judged(160, 90, 0.9 * own)));
     EXPECT_FALSE(keepsPromise(judged(320, 180, 1.01 * own))) << "twice as many of its own pixels";
+}
+
+TEST(FlightJudge, AFrameThatShowsNothingDidNotComeClosestToItsPromise) {
+    const auto plane = LiftedPlane::source();
+    ReferenceScene scene{{{{plane, nullptr}, "plane.eyt"}},
+                         std::make_shared<truth::PlacedSurfaces>(
+                             std::vector<truth::PlacedSurface>{{plane, fabric::Mat4(1)}})};
+    const fabric::Camera away{.eye = {32, -60, 30}, .target = {32, -120, 60}, .fovYDegrees = 20};
+    const fabric::Camera there{.eye = {32, -60, 30}, .target = {32, -32, 7}, .fovYDegrees = 20};
+    FlightJudge judge(std::move(scene), fabric::Flight{{{0, away}, {1, there}}},
+                      {.width = 160, .height = 90, .played = 2, .judged = 2}, {});
+    LiftedPlane pictures(0.25F);
+    coordinator::FrameRequest request;
+    request.width = 160;
+    request.height = 90;
+    const auto measured = judge.judge(pictures, pictures, request, [] {}, {});
+    ASSERT_TRUE(measured.ok()) << measured.status();
+    EXPECT_TRUE(isEmpty(measured->frames.at(0)));
+    EXPECT_EQ(measured->worst.at(0).error.seconds, 1);
 }
 
 std::vector<BenchRun> runWith(double maxPixels, double promisedPixels) {

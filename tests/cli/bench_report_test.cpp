@@ -53,14 +53,17 @@ TEST(Quantile, IsTheNearestRank) {
 }
 
 TEST(RunSummary, TheFirstPassCountsForItselfOnly) {
-    const RunSummary summary = summarize(oneRun()[0].played);
+    Played played = oneRun()[0].played;
+    const RunSummary summary = summarize(played);
     EXPECT_EQ(summary.frame.p50, 20);
     EXPECT_EQ(summary.frame.max, 40);
     EXPECT_EQ(summary.fpsMedian, 50);
     EXPECT_EQ(summary.firstPass.max, 500);
     EXPECT_EQ(summary.bytesLoaded, 28u);
-    EXPECT_DOUBLE_EQ(summary.trianglesMean, 80);
-    EXPECT_DOUBLE_EQ(summary.pointsMean, 20);
+    played.frames[0].statistics.triangles = 9000;
+    played.frames[0].statistics.points = 900;
+    EXPECT_DOUBLE_EQ(summarize(played).trianglesMean, 80);
+    EXPECT_DOUBLE_EQ(summarize(played).pointsMean, 20);
 }
 
 TEST(RunSummary, TheErrorIsThatOfTheWorstFrame) {
@@ -94,8 +97,24 @@ TEST(BenchReport, ARunAtAFrameTimeSaysHowItWasHeld) {
     EXPECT_EQ(number(run, "withinBudget"), 0);
     EXPECT_EQ(number(run, "tauAchieved.p95"), 0.5);
     EXPECT_THAT(table(held.runs),
-                testing::HasSubstr("33 ms to hold: 0.0 % of frames within 40 ms"));
-    EXPECT_THAT(framesCsv(held.runs), testing::HasSubstr(",33,30.000,0.5,20.000\n"));
+                testing::HasSubstr("33 ms to hold: 0.0 % of frames within 39.6 ms"));
+    EXPECT_THAT(framesCsv(held.runs), testing::HasSubstr(",33,30.000,0.5,20.000,1.0000\n"));
+}
+
+TEST(BenchReport, FramesDrawnSmallerSaySoEverywhere) {
+    Report held = report();
+    held.runs[0].budgetMilliseconds = 33;
+    const Report whole = held;
+    held.runs[0].played.frames[1].stretch = 1.5;
+    held.runs[0].played.frames[2].stretch = 4;
+    const test::JsonValue run = test::list(parseJson(summaryJson(held)), "runs").at(0);
+    EXPECT_EQ(number(run, "framesSmaller"), 2);
+    EXPECT_EQ(number(run, "stretchMax"), 4);
+    EXPECT_THAT(framesCsv(held.runs), testing::HasSubstr(",4.0000\n"));
+    EXPECT_THAT(table(held.runs),
+                testing::HasSubstr("; 2 of 4 frames were drawn smaller, their pixels stretched up "
+                                   "to 4.00 times\n"));
+    EXPECT_THAT(table(whole.runs), testing::Not(testing::HasSubstr("smaller")));
 }
 
 TEST(BenchReport, ARunTooShortToTellHowItsFrameTimeWasHeldSaysSo) {
@@ -186,8 +205,9 @@ Report madeUpReport() {
                                    .psnrDb = 40 - share,
                                    .ssim = 1 - 0.01 * share,
                                    .flip = 0.02 * share,
-                                   .triangles = 100});
+                                   .triangles = static_cast<std::size_t>(1000 * share)});
     measured.worst.push_back({measured.frames[1], "made-up picture", "made-up heat map"});
+    measured.frames[2].stretch = 2;
     made.runs[0].measured = measured;
     made.uniform = {{6400, 19200, 0.1125, 0.5}, {1600, 4800, 0.225, 1}, {400, 1200, 0.9, 4}};
     return made;
@@ -199,6 +219,7 @@ TEST(BenchReport, MeasuredErrorsAreThoseOfTheWorstFrames) {
     EXPECT_DOUBLE_EQ(number(run, "errorPx.p50"), 0.06);
     EXPECT_DOUBLE_EQ(number(run, "errorPx.p99"), 0.45);
     EXPECT_DOUBLE_EQ(number(run, "errorPx.max"), 0.9);
+    EXPECT_DOUBLE_EQ(number(run, "errorPx.rounded"), 2. / 256);
     EXPECT_EQ(number(run, "holes"), 3);
     EXPECT_EQ(number(run, "misplaced"), 6);
     EXPECT_DOUBLE_EQ(number(run, "silhouettePx"), 0.72);
@@ -207,9 +228,22 @@ TEST(BenchReport, MeasuredErrorsAreThoseOfTheWorstFrames) {
     EXPECT_DOUBLE_EQ(number(run, "flip"), 0.018);
     EXPECT_EQ(number(run, "framesMeasured"), 3);
     EXPECT_FALSE(test::at(run, "measuredWithinPromise").bool_value()) << "it has holes";
-    EXPECT_NEAR(number(run, "efficiency"), 8, 1e-9);  // 800 triangles between 1600 and 400
-    EXPECT_NEAR(number(run, "efficiencyWhole"), 24, 1e-9) << "with those out of view";
+    EXPECT_NEAR(number(run, "trianglesMeasured"), 600, 1e-9) << "not those of all played frames";
+    EXPECT_NEAR(number(run, "efficiency"), 800. / 600, 1e-9) << "800: between 1600 and 400";
+    EXPECT_NEAR(number(run, "efficiencyWhole"), 2400. / 600, 1e-9) << "with those out of view";
     EXPECT_EQ(test::list(summary, "uniform").size(), 3U);
+}
+
+TEST(BenchReport, FramesThatShowNothingAreNotMeasured) {
+    Report made = madeUpReport();
+    const auto p50 = summarize(*made.runs[0].measured).p50Pixels;
+    for (int i = 0; i < 5; ++i)
+        made.runs[0].measured->frames.insert(made.runs[0].measured->frames.begin(),
+                                             FrameError{.seconds = 0.1 * i});
+    EXPECT_EQ(summarize(*made.runs[0].measured).p50Pixels, p50);
+    const auto run = test::list(parseJson(summaryJson(made)), "runs").at(0);
+    EXPECT_EQ(number(run, "framesMeasured"), 3);
+    EXPECT_THAT(reportPage(made), testing::Not(testing::HasSubstr("\"seconds\": 0.1,")));
 }
 
 TEST(BenchReport, AFrameFartherOffThanItPromisedBreaksThePromise) {
@@ -296,8 +330,8 @@ TEST(BenchReport, NamesFrameTimeAndLatencyApart) {
     EXPECT_EQ(number(run, "stagesMs.total"), 27) << "stages are of one frame's life";
     EXPECT_THAT(table(runs),
                 testing::ContainsRegex("in flight  latency ms.*\n.* 20.0 .* 2 +27.0 "));
-    EXPECT_THAT(framesCsv(runs), testing::HasSubstr(",latency\n"));
-    EXPECT_THAT(framesCsv(runs), testing::HasSubstr(",,,27.000\n"));
+    EXPECT_THAT(framesCsv(runs), testing::HasSubstr(",latency,stretch\n"));
+    EXPECT_THAT(framesCsv(runs), testing::HasSubstr(",,,27.000,1.0000\n"));
 }
 
 TEST(BenchReport, AFilesNameCannotEndThePagesScript) {

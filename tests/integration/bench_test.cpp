@@ -202,7 +202,7 @@ TEST_F(Bench, EveryFrameOfTheTestFlightsKeepsItsPromiseAtEveryTau) {
             const auto runs = test::list(summaryOf(report), "runs");
             ASSERT_EQ(runs.size(), 5U);
             for (const auto& run : runs) {
-                EXPECT_EQ(number(run, "framesMeasured"), 24);
+                EXPECT_GE(number(run, "framesMeasured"), 20) << "some show nothing";
                 EXPECT_TRUE(test::at(run, "measuredWithinPromise").bool_value());
             }
             // Of terrain, and of meshes in full detail, normals are the source's.
@@ -213,6 +213,9 @@ TEST_F(Bench, EveryFrameOfTheTestFlightsKeepsItsPromiseAtEveryTau) {
                 EXPECT_GT(normals(runs[4]), 0);
             else
                 EXPECT_EQ(normals(runs[4]), 0);
+            const auto errors = test::readFile(report + "/errors.csv");
+            ASSERT_TRUE(errors.ok()) << errors.status();
+            EXPECT_EQ(std::count(errors->begin(), errors->end(), '\n'), 1 + 5 * 24);
             const auto frames = test::readFile(report + "/frames.csv");
             ASSERT_TRUE(frames.ok()) << frames.status();
             const std::vector<std::string> lines = absl::StrSplit(*frames, '\n');
@@ -233,7 +236,7 @@ TEST_F(Bench, PicturesThatHoldAFrameTimeKeepTheirPromise) {
     const auto runs = test::list(summaryOf(report), "runs");
     ASSERT_EQ(runs.size(), 4U);
     for (const auto& run : runs) {
-        EXPECT_EQ(number(run, "framesMeasured"), 12);
+        EXPECT_GE(number(run, "framesMeasured"), 10) << "some show nothing";
         EXPECT_TRUE(test::at(run, "measuredWithinPromise").bool_value());
         EXPECT_GT(number(run, "errorPx.max"), 0);
     }
@@ -323,6 +326,13 @@ TEST_F(Bench, RefusesAReferenceThatIsNone) {
                 testing::HasSubstr("is not what " + path("r.eym") + " was imported from"));
     std::filesystem::remove(path("r.ply"));
     EXPECT_THAT(refusal(path("r.eym"), {"--reference"}, 2), testing::HasSubstr(path("r.ply")));
+}
+
+/// An eye beside the camera is drawn behind a coordinator.
+TEST_F(Bench, ARunSaysWhoDrewIt) {
+    ASSERT_TRUE(succeeded({"bench", dem(), "--eye", "left", "--tau", "4", "--size", "160x90",
+                           "--frames", "2", "--repeats", "1", "-o", path("eye")}));
+    EXPECT_EQ(number(test::list(summaryOf(path("eye")), "runs").at(0), "renderers"), 1);
 }
 
 TEST_F(Bench, RefusesFlightsThatAreNone) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frame time against the error promised, and the error measured beside it.
 
-/** "12 %" of its promise, of the worst pixel measured; nothing where there is no bound. */
-const shareOfPromise = (run) => (measuredPromiseOf(run) === null ? "" : `${number((100 * run.errorPx.max) / measuredPromiseOf(run), 2)} %`);
+/** "12 %" of its promise and what rasterisation rounds, of the worst pixel measured; nothing where there is no bound. */
+const shareOfPromise = (run) => (measuredPromiseOf(run) === null ? "" : `${number((100 * run.errorPx.max) / (measuredPromiseOf(run) + run.errorPx.rounded), 2)} %`);
 
 /** What is between the worst pixel measured and the promise: error that was not used. */
 function drawMeasured(svg, list, { x, y }) {
@@ -23,14 +23,20 @@ function drawMeasured(svg, list, { x, y }) {
     svg.append(mark("circle", { cx: left, cy: level, r: 3.5, fill: "var(--panel)", stroke: "var(--truth)", "stroke-width": 1.75 }),
                explained(dot, `${run.label}: the worst pixel of ${run.framesMeasured} frames is ${number(run.errorPx.max)} px off,\n` +
                  `99 in 100 of any frame are within ${number(run.errorPx.p99)} px\n` +
-                 (broken ? "more than was promised" : `${shareOfPromise(run)} of the ${number(measuredPromiseOf(run))} px promised`)));
+                 (broken ? "more than was promised" : `${shareOfPromise(run)} of the ${number(measuredPromiseOf(run))} px promised and the ${number(run.errorPx.rounded)} px that rasterisation rounds`)));
   }
 }
+
+/** How many frames of a run have fewer pixels than were asked for, in words; nothing where none has. */
+const smaller = (run) =>
+  run.framesSmaller > 0
+    ? `${number(run.framesSmaller)} of ${number(bench.frames * (bench.repeats + 1))} frames were drawn smaller, their pixels stretched up to ${number(run.stretchMax)} times`
+    : "";
 
 /** What a run's frames promise, in words. */
 const promiseOf = (run) =>
   run.budgetMs > 0
-    ? `half of the warm frames promise at most ${number(run.tauAchieved.p50)} px, 95 in 100 ${number(run.tauAchieved.p95)} px;\nthe worst of all, that load too, ${number(run.tauAchievedMax)} px`
+    ? `half of the warm frames promise at most ${number(run.tauAchieved.p50)} px, 95 in 100 ${number(run.tauAchieved.p95)} px;\nthe worst of all, that load too, ${number(run.tauAchievedMax)} px${smaller(run) && `;\n${smaller(run)}`}`
     : `every frame promises at most ${number(run.tauAchievedMax)} px`;
 
 function drawSeries(svg, list, colour, { x, y }, labelled) {

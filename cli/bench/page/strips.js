@@ -22,7 +22,7 @@ function placed(own, left, right, most = 1600) {
 function drawStrip(run, own) {
   const [left, right, top, base] = [0, 690, 10, 84];
   const warm = own.filter((frame) => frame[1] > 0);
-  const most = Math.max(run.frameMs.p99 * 1.2, Math.min(Math.max(...warm.map((frame) => frame[3])), run.frameMs.p99 * 1.6)) || 1;
+  const most = Math.max(run.frameMs.p99 * 1.2, Math.min(warm.reduce((longest, frame) => Math.max(longest, frame[3]), 0), run.frameMs.p99 * 1.6)) || 1;
   const y = linear([0, most], [base, top]);
   const { bars, width } = placed(own, left, right);
   const svg = drawing(780, 104, `${run.label}: median ${number(run.frameMs.p50)}, p95 ${number(run.frameMs.p95)}, p99 ${number(run.frameMs.p99)}, longest ${number(run.frameMs.max)} milliseconds`);
@@ -57,8 +57,8 @@ function drawStrips(place) {
 function drawErrors(run, own) {
   const [left, right, top, base] = [34, 320, 8, 120];
   const most = Math.max(...own.map((one) => Math.max(one.max, one.promised ?? 0))) * 1.12;
-  const last = own.length > 1 ? own.at(-1).seconds : 1;
-  const x = linear([own[0].seconds, last || 1], [left + 4, right - 4]);
+  const last = own.at(-1).seconds;
+  const x = linear([own[0].seconds, last], [left + 4, right - 4]);
   const y = linear([0, most], [base, top]);
   const broken = own.filter((one) => !one.kept).length;
   const svg = drawing(330, 142, `${run.label}: worst pixel of each measured frame under its promise in ${own.length - broken} of ${own.length} frames`);

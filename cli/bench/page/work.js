@@ -37,13 +37,14 @@ function drawStages(place) {
   place.append(legend(stageNames.map((name) => [name, `var(--${name})`])), svg);
 }
 
-/** What runs cost in triangles at the error they have: measured where that was done. */
+/** What runs cost in triangles at the error they have: both of the measured frames where there are some. */
 function trianglePoints() {
   const measured = runs.filter((run) => run.errorPx && run.errorPx.p99 > 0);
   const chosen = measured.length > 0 ? measured : runs.filter(isOnAxis);
-  const first = chosen.filter((run) => run.renderers === chosen[0].renderers && run.trianglesMean + run.pointsMean > 0);
-  return { isMeasured: measured.length > 0, points: first.map((run) => ({
-    run, error: measured.length > 0 ? run.errorPx.p99 : errorOf(run), triangles: run.trianglesMean + run.pointsMean })) };
+  const isMeasured = measured.length > 0;
+  const trianglesOf = (run) => (isMeasured ? run.trianglesMeasured : run.trianglesMean + run.pointsMean);
+  const first = chosen.filter((run) => run.renderers === chosen[0].renderers && trianglesOf(run) > 0);
+  return { isMeasured, points: first.map((run) => ({ run, error: isMeasured ? run.errorPx.p99 : errorOf(run), triangles: trianglesOf(run) })) };
 }
 
 /** From a run down from what uniform decimation needs for the same error. */
@@ -73,7 +74,7 @@ function drawTriangles(place) {
     svg.append(mark("line", { class: "axis", x1: axes.x(pixels), x2: axes.x(pixels), y1: box.bottom, y2: box.bottom + 5 }),
                mark("text", { x: axes.x(pixels), y: box.bottom + 20, "text-anchor": "middle" }, `${number(pixels)} px`));
   if (hasUnbounded) svg.append(mark("text", { x: box.right, y: box.bottom + 20, "text-anchor": "middle" }, "∞"));
-  svg.append(mark("text", { x: box.left - 44, y: box.top - 12 }, "triangles a frame"),
+  svg.append(mark("text", { x: box.left - 44, y: box.top - 12 }, isMeasured ? "triangles a frame measured" : "triangles a frame"),
              mark("text", { x: box.right, y: box.bottom + 42, "text-anchor": "end" }, isMeasured ? "measured error, p99  →  coarser" : "promised error  →  coarser"));
   const place2d = (error, triangles) => [axes.x(error), axes.y(triangles)];
   if (levels.length > 0) {
