@@ -52,11 +52,11 @@ absl::StatusOr<std::string> importName(const std::vector<std::string>& sources,
     }
     std::uint64_t hash = 0;
     for (const std::string& source : sources) {
-        ASSIGN_OR_RETURN(const std::uint64_t part, import::rasterHash(source, stop));
+        ASSIGN_OR_RETURN(const std::uint64_t part, import::placedRasterHash(source, stop));
         hash = hash * 41 + part;
     }
     for (const std::string& picture : imagery) {
-        ASSIGN_OR_RETURN(const std::uint64_t part, import::rasterHash(picture, stop));
+        ASSIGN_OR_RETURN(const std::uint64_t part, import::placedRasterHash(picture, stop));
         hash = hash * 37 + part;
     }
     return fmt::format("{:016x}-{}.eyt", hash, kTerrainImporterVersion);

@@ -59,12 +59,23 @@ absl::StatusOr<double> brightest(const std::string& path, GDALDataset& dataset,
             continue;
         }
         std::array<double, 2> range{};
-        if (band->ComputeRasterMinMax(TRUE, range.data()) == CE_None)
+        if (band->ComputeRasterMinMax(FALSE, range.data()) == CE_None)
             most = std::max(most, range[1]);
     }
     if (!(most > 0))
         return invalid(path, "holds no value above 0; is it the picture you mean?");
     return most;
+}
+
+/// What alpha of other than 8 bits is where nothing lets through: by its tag, its type, or 255 of
+/// one that holds no more.
+double opaque(GDALRasterBand& alpha) {
+    if (const char* bits = alpha.GetMetadataItem("NBITS", "IMAGE_STRUCTURE"))
+        return std::exp2(std::clamp(std::atoi(bits), 1, 16)) - 1;
+    if (std::array<double, 2> range{};
+        alpha.ComputeRasterMinMax(FALSE, range.data()) == CE_None && range[1] <= 255)
+        return 255;
+    return alpha.GetRasterDataType() == GDT_Int16 ? 32767 : 65535;
 }
 
 absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& dataset,
@@ -94,7 +105,7 @@ absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& data
         notes.push_back(fmt::format("{}: values of 0 to {} turned to 8 bits", path, most));
     }
     if (rule.alpha != 0 && dataset.GetRasterBand(rule.alpha)->GetRasterDataType() != GDT_Byte)
-        rule.alphaBytePerValue = 255.0 / 65535;
+        rule.alphaBytePerValue = 255 / opaque(*dataset.GetRasterBand(rule.alpha));
     if (dataset.GetRasterCount() > 4 || (dataset.GetRasterCount() == 4 && rule.alpha == 0))
         notes.push_back(fmt::format("{}: bands {}, {} and {} of {} taken for red, green and blue",
                                     path, rule.colours[0], rule.colours[1], rule.colours[2],

@@ -22,7 +22,7 @@ struct ColourFile {
     std::vector<std::string> notes;
 };
 
-/// Looks at everything but the pixels (of 16-bit files at some of them). Grey, grey with alpha,
+/// Looks at everything but the pixels (of 16-bit files at these, too). Grey, grey with alpha,
 /// palette, RGB and RGBA of 8 or 16 bits; of more bands those tagged red, green and blue, or the
 /// first three. 16 bits become 8 by the brightest value, or by the NBITS tag. Errors: those of
 /// openRaster; InvalidArgument (not colours).

@@ -70,6 +70,22 @@ Georeference TexelGrid::reference(int texelShift) const {
     return {frame.origin, frame.perColumn * posts, frame.perRow * posts};
 }
 
+/// How large pixels are that were looked at.
+struct Areas {
+    double sum = 0;  ///< posts squared
+    int count = 0;
+
+    void add(double area) {
+        sum += area;
+        ++count;
+    }
+    double side() const { return std::sqrt(sum / count); }
+};
+
+bool isWithin(const fabric::Vec2& at, const fabric::Vec2& low, const fabric::Vec2& high) {
+    return at.x >= low.x && at.y >= low.y && at.x <= high.x && at.y <= high.y;
+}
+
 absl::StatusOr<ColourPlace> placeOf(const ColourFile& file, const TexelGrid& grid,
                                     QuietGdal& gdal) {
     const double columns = GDALGetRasterXSize(file.dataset.get());
@@ -89,29 +105,44 @@ absl::StatusOr<ColourPlace> placeOf(const ColourFile& file, const TexelGrid& gri
         post = postOf({column, row}, frame);
         return isDone != 0 && std::isfinite(post.x) && std::isfinite(post.y);
     };
+    Areas anywhere;
+    Areas onTerrain;  // which may be a small part of a picture that is the finer the farther away
+    const fabric::Vec2 last(frame.columns - 1, frame.rows - 1);
+    const auto lookAt = [&](double column, double row, const fabric::Vec2& post) {
+        fabric::Vec2 right;
+        fabric::Vec2 below;
+        if (!postAt(column + 1, row, right) || !postAt(column, row + 1, below))
+            return;
+        const double area = std::abs(glm::determinant(glm::dmat2(right - post, below - post)));
+        anywhere.add(area);
+        if (isWithin(post, fabric::Vec2(0), last))
+            onTerrain.add(area);
+    };
     constexpr int kSteps = 20;
     ColourPlace place;
     place.low = fabric::Vec2(std::numeric_limits<double>::infinity());
     place.high = -place.low;
-    double area = 0;
-    int cells = 0;
     for (int j = 0; j <= kSteps; ++j)
         for (int i = 0; i <= kSteps; ++i) {
             const double column = columns * i / kSteps;
             const double row = rows * j / kSteps;
             fabric::Vec2 post;
-            fabric::Vec2 right;
-            fabric::Vec2 below;
-            if (!postAt(column, row, post))
-                continue;
-            place.low = glm::min(place.low, post);
-            place.high = glm::max(place.high, post);
-            if (postAt(column + 1, row, right) && postAt(column, row + 1, below)) {
-                area += std::abs(glm::determinant(glm::dmat2(right - post, below - post)));
-                ++cells;
+            if (postAt(column, row, post)) {
+                place.low = glm::min(place.low, post);
+                place.high = glm::max(place.high, post);
+                lookAt(column, row, post);
             }
+            const fabric::Vec2 there = last * fabric::Vec2(i, j) / static_cast<double>(kSteps);
+            const fabric::Vec2 point =
+                frame.origin + frame.perColumn * there.x + frame.perRow * there.y;
+            fabric::Vec2 pixel = point;
+            double z = 0;
+            int isDone = 0;
+            GDALGenImgProjTransform(transformer.get(), TRUE, 1, &pixel.x, &pixel.y, &z, &isDone);
+            if (isDone != 0 && isWithin(pixel, fabric::Vec2(0), {columns, rows}))
+                lookAt(pixel.x, pixel.y, there);
         }
-    if (cells == 0)
+    if (anywhere.count == 0)
         return cannotBeBrought(file, gdal);
     if (isAroundTheEarth(file.dataset.get())) {
         // Where its rims lie within the terrain there is more of it between the points.
@@ -122,7 +153,7 @@ absl::StatusOr<ColourPlace> placeOf(const ColourFile& file, const TexelGrid& gri
     const fabric::Vec2 margin = (place.high - place.low) / static_cast<double>(kSteps * kSteps);
     place.low -= margin;
     place.high += margin;
-    place.pixelPosts = std::sqrt(area / cells);
+    place.pixelPosts = (onTerrain.count > 0 ? onTerrain : anywhere).side();
     return place;
 }
 

@@ -318,6 +318,10 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
             fmt::format("band 1 of {} taken for heights", GDALGetRasterCount(dataset.get())));
     RETURN_IF_ERROR(checkPlace(path, dataset.get()));
     const OGRSpatialReferenceH crs = crsOf(dataset.get());
+    if (crs != nullptr && OSRIsDerivedGeographic(crs) != 0)
+        return invalid(path,
+                       "is in degrees of a rotated pole, not of the earth; reproject it with "
+                       "gdalwarp -t_srs EPSG:4326 first");
     ASSIGN_OR_RETURN(const ValueRule rule, valueRule(path, band, crs, file.notes));
     std::array<double, 6> ignored{};
     file.isGeoreferenced = GDALGetGeoTransform(dataset.get(), ignored.data()) == CE_None;

@@ -103,10 +103,12 @@ private:
     void noteVerticalDatums() {
         std::map<std::string, std::string> files;  // one of each datum
         for (const DemFile& file : files_) {
-            const char* const datum =
-                file.crs ? OSRGetAttrValue(file.crs.get(), "VERT_DATUM", 0) : nullptr;
-            if (datum != nullptr)
+            if (!file.crs)
+                continue;
+            if (const char* const datum = OSRGetAttrValue(file.crs.get(), "VERT_DATUM", 0))
                 files.emplace(datum, file.path);
+            else if (OSRGetAxesCount(file.crs.get()) == 3)
+                files.emplace("the ellipsoid", file.path);
         }
         if (files.size() < 2)
             return;

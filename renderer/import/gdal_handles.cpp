@@ -99,9 +99,11 @@ void cutToOneTurn(OGRSpatialReferenceH crs, Georeference& reference, int& column
         pixel * columns <= kTurn)
         return;
     constexpr double kPixelsOfRounding = 1e-3;
+    constexpr double kRounding = 1e-14;  // of longitudes far from 0
     columns = std::max(1, static_cast<int>(kTurn / pixel + kPixelsOfRounding));
-    if (pixel * columns > kTurn)
-        reference.perColumn.x = std::copysign(kTurn / columns, reference.perColumn.x);
+    const double most = kTurn / columns * (1 - kRounding);
+    if (pixel > most)
+        reference.perColumn.x = std::copysign(most, reference.perColumn.x);
 }
 
 bool isSameCrs(OGRSpatialReferenceH a, OGRSpatialReferenceH b) {

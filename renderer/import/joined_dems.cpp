@@ -114,8 +114,11 @@ Vec2 inPixels(const Georeference& grid, const Vec2& point) {
 /// The corner of a file that its first pixel has, from the same longitude's name that `first` uses.
 Vec2 originBeside(const DemFile& first, const DemFile& file) {
     Vec2 origin = file.reference.origin;
-    if (first.isGeographic())
-        origin.x -= 360 * std::round((centreOf(file).x - centreOf(first).x) / 360);
+    // Of two halves of the earth neither is moved.
+    constexpr double kMoved = 0.5 + 1e-6;  // turns
+    if (const double turns = (centreOf(file).x - centreOf(first).x) / 360;
+        first.isGeographic() && std::abs(turns) > kMoved)
+        origin.x -= 360 * std::round(turns);
     return origin;
 }
 
@@ -165,8 +168,10 @@ Dataset joined(std::span<const DemFile> files) {
     Georeference reference = first.reference;
     reference.origin += reference.perColumn * static_cast<double>(left) +
                         reference.perRow * static_cast<double>(top);
+    int columns = right - left;
+    cutToOneTurn(first.crs.get(), reference, columns);  // which tiles may pass that each do not
     return Dataset(GDALDataset::ToHandle(
-        new JoinedDataset(first, reference, right - left, bottom - top, std::move(members))));
+        new JoinedDataset(first, reference, columns, bottom - top, std::move(members))));
 }
 
 }  // namespace eyrie::import

@@ -32,14 +32,15 @@ std::optional<std::uint64_t> fingerprintOfFile(const std::string& path) {
     return XXH64(buffer.data(), got, first ^ bytes);
 }
 
+/// Of the picture's own file and of all that it names or has beside it.
 std::uint64_t fingerprintOf(const std::string& name) {
-    if (const std::optional<std::uint64_t> file = fingerprintOfFile(name))
-        return *file;
+    const std::optional<std::uint64_t> own = fingerprintOfFile(name);
     const std::string part = partOfFile(name);  // of a file that GDAL alone can tell
-    std::uint64_t all = XXH64(part.data(), part.size(), 0);
+    std::uint64_t all = own ? *own : XXH64(part.data(), part.size(), 0);
     if (const Dataset dataset(GDALOpen(name.c_str(), GA_ReadOnly)); dataset)
-        for (const std::string& file : filesOf(dataset.get()))
-            all = all * 0x9e3779b97f4a7c15 + fingerprintOfFile(file).value_or(0);
+        for (const std::string& file : allFilesOf(dataset.get()))
+            if (!own || file != name)
+                all = all * 0x9e3779b97f4a7c15 + fingerprintOfFile(file).value_or(0);
     return all;
 }
 

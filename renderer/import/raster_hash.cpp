@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/raster_hash.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -44,14 +45,19 @@ absl::StatusOr<std::uint64_t> rasterHash(const std::string& path, GDALDatasetH r
     return hash;
 }
 
-absl::StatusOr<std::uint64_t> rasterHash(const std::string& path, const std::stop_token& stop) {
+absl::StatusOr<std::uint64_t> placedRasterHash(const std::string& path,
+                                               const std::stop_token& stop) {
     QuietGdal gdal;
     ASSIGN_OR_RETURN(const Dataset raster,
                      openRaster(path,
                                 "a raster such as a GeoTIFF, or a mesh whose name ends in .ply, "
                                 ".obj, .glb or as README.md lists",
                                 gdal));
-    return rasterHash(path, raster.get(), "", stop);
+    ASSIGN_OR_RETURN(const std::uint64_t hash, rasterHash(path, raster.get(), "", stop));
+    std::array<double, 6> place{};
+    if (GDALGetGeoTransform(raster.get(), place.data()) != CE_None)
+        return hash;
+    return XXH64(place.data(), sizeof(place), hash);
 }
 
 }  // namespace eyrie::import

@@ -138,21 +138,27 @@ std::array<std::uint8_t, 16> decodeAlphas(const std::byte* block) {
     return alphas;
 }
 
-/// Root of the mean square difference of the channels that are kept; colours count where they show.
+/// Root of the mean square difference, over texels that show, of their colours, or over all of
+/// alpha where that is more.
 float errorOf(const Image& image, const Texels& texels) {
     const Texels coded = decodeLevel(image.shape, image.blocks, 0);
     const std::size_t stride = (image.shape.width + 3) / 4 * 4;
     const auto square = [](int a, int b) { return static_cast<double>((a - b) * (a - b)); };
-    double sum = 0;
+    double ofColours = 0;
+    double ofAlpha = 0;
+    std::size_t shown = 0;
     for (std::size_t i = 0; i < texels.size(); ++i) {
         const fabric::Rgba& a = texels[i];
         const fabric::Rgba& b = coded[i / image.shape.width * stride + i % image.shape.width];
-        if (a.a > 0)
-            sum += square(a.r, b.r) + square(a.g, b.g) + square(a.b, b.b);
-        sum += image.shape.hasAlpha() ? square(a.a, b.a) : 0;
+        if (a.a > 0) {
+            ofColours += square(a.r, b.r) + square(a.g, b.g) + square(a.b, b.b);
+            ++shown;
+        }
+        ofAlpha += image.shape.hasAlpha() ? square(a.a, b.a) : 0;
     }
-    const double channels = image.shape.hasAlpha() ? 4 : 3;
-    return static_cast<float>(std::sqrt(sum / (channels * static_cast<double>(texels.size()))));
+    const double colours = shown > 0 ? ofColours / (3 * static_cast<double>(shown)) : 0;
+    const double alpha = ofAlpha / static_cast<double>(texels.size());
+    return static_cast<float>(std::sqrt(std::max(colours, alpha)));
 }
 
 }  // namespace

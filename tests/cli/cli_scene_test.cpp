@@ -112,6 +112,19 @@ TEST_F(SceneFiles, ChangedContentIsImportedAnew) {
     EXPECT_EQ(importsKept(), 2U);
 }
 
+/// SRTM's files say by their names alone where they lie.
+TEST_F(SceneFiles, TheSameHeightsElsewhereAreAnotherImport) {
+    const std::string heights(std::size_t{2} * 1201 * 1201, '\1');
+    std::vector<std::string> imports;
+    for (const char* name : {"N00E006.hgt", "N00E007.hgt"}) {
+        std::ofstream(folder_.path(name)) << heights;
+        const auto made = cache_.dataFor(folder_.path(name), fabric::ObjectKind::Terrain);
+        ASSERT_TRUE(made.ok()) << made.status();
+        imports.push_back(*made);
+    }
+    EXPECT_NE(imports[0], imports[1]);
+}
+
 TEST_F(SceneFiles, ADamagedImportIsMadeAgain) {
     const std::string ball = writeBall(folder_);
     const auto data = cache_.dataFor(ball, fabric::ObjectKind::Mesh);

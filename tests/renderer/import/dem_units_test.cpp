@@ -169,5 +169,19 @@ TEST_F(DemMosaic, TellsOfVerticalDatumsThatDiffer) {
                                                              HasSubstr(navd88), HasSubstr(egm96))));
 }
 
+TEST_F(DemMosaic, TellsOfHeightsAboveTheEllipsoidBesideOthers) {
+    const std::string ellipsoid =
+        write({.crs = "EPSG:4979", .west = 6, .north = 46.1, .pixel = 0.01, .height = constant(1)});
+    const std::string egm96 = write({.crs = "EPSG:4326+5773",
+                                     .west = 6.1,
+                                     .north = 46.1,
+                                     .pixel = 0.01,
+                                     .height = constant(2)});
+    const auto dem = test::readDems({ellipsoid, egm96});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_THAT(dem->notes, testing::Contains(
+                                testing::AllOf(HasSubstr("the ellipsoid"), HasSubstr(ellipsoid))));
+}
+
 }  // namespace
 }  // namespace eyrie::import

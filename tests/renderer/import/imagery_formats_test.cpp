@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // What pictures may be.
+#include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "renderer/import/picture_fingerprint.h"
 #include "tests/renderer/import/imagery_import.h"
 
 namespace eyrie::import {
@@ -64,6 +69,84 @@ TEST_F(ImageryImport, ReadsGreyPalettesAndOtherThan8Bits) {
             *file, 10, [&](double, double) { return kind.expected; }, 4);
         EXPECT_FALSE(std::ifstream(path + ".aux.xml").good()) << "nothing is written beside it";
     }
+}
+
+TEST_F(ImageryImport, KnowsWhatIsOpaqueInMoreThan8Bits) {
+    struct Kind {
+        const char* name;
+        GDALDataType type;
+        const char* option;
+        double opaque;
+    };
+    for (const Kind& kind : {Kind{"16 bits", GDT_UInt16, nullptr, 65535},
+                             Kind{"12 bits", GDT_UInt16, "NBITS=12", 4095},
+                             Kind{"8 bits of 16", GDT_UInt16, nullptr, 255},
+                             Kind{"signed", GDT_Int16, nullptr, 32767}}) {
+        const std::string path = folder_.path(std::string(kind.name) + ".tif");
+        {
+            GDALAllRegister();
+            const std::unique_ptr<char*, decltype(&CSLDestroy)> options(
+                CSLAddString(CSLAddString(CSLAddString(nullptr, "ALPHA=YES"), "PHOTOMETRIC=RGB"),
+                             kind.option != nullptr ? kind.option : "TILED=NO"),
+                &CSLDestroy);
+            const GDALDatasetUniquePtr file(
+                GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path.c_str(), 40, 40, 4,
+                                                                         kind.type, options.get()));
+            std::array<double, 6> transform{kWest - 50, 10, 0, kSouth + 350, 0, -10};
+            file->SetGeoTransform(transform.data());
+            OGRSpatialReference crs;
+            crs.importFromEPSG(test::kUtm33);
+            file->SetSpatialRef(&crs);
+            for (int band = 1; band <= 3; ++band) file->GetRasterBand(band)->Fill(200);
+            file->GetRasterBand(4)->SetColorInterpretation(GCI_AlphaBand);
+            file->GetRasterBand(4)->Fill(kind.opaque);
+        }
+        SCOPED_TRACE(kind.name);
+        const auto file = imported(test::slope(30, 30, 10), {path});
+        ASSERT_NE(file, nullptr);
+        EXPECT_EQ(file->index().imagery->coveredTexels, file->index().imagery->finestTexels());
+    }
+}
+
+/// The brightest pixels lie in rows that a look at every 32nd block passes over.
+TEST_F(ImageryImport, TurnsAllValuesTo8BitsByTheBrightestOfAll) {
+    const std::string path = folder_.path("glint.tif");
+    {
+        GDALAllRegister();
+        constexpr int kSide = 2048;
+        const GDALDatasetUniquePtr file(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+            path.c_str(), kSide, kSide, 1, GDT_UInt16, nullptr));
+        std::array<double, 6> transform{kWest - 10, 0.2, 0, kSouth + 380, 0, -0.2};
+        file->SetGeoTransform(transform.data());
+        OGRSpatialReference crs;
+        crs.importFromEPSG(test::kUtm33);
+        file->SetSpatialRef(&crs);
+        std::vector<std::uint16_t> row(kSide, 500);
+        for (int y = 0; y < kSide; ++y) {
+            std::fill(row.begin(), row.begin() + 1400, y >= 1037 && y < 1078 ? 4000 : 500);
+            ASSERT_EQ(file->GetRasterBand(1)->RasterIO(GF_Write, 0, y, kSide, 1, row.data(), kSide,
+                                                       1, GDT_UInt16, 0, 0, nullptr),
+                      CE_None);
+        }
+    }
+    const auto file = imported(test::slope(30, 30, 10), {path});
+    ASSERT_NE(file, nullptr);
+    const test::TexelImage image = test::wholeLevel(*file, 0);
+    const auto dark = std::ranges::count_if(
+        image.texels, [](const Rgba& texel) { return std::abs(texel.r - 255 / 8) < 4; });
+    EXPECT_GT(dark, static_cast<std::ptrdiff_t>(image.texels.size() * 9 / 10));
+    EXPECT_TRUE(std::ranges::any_of(image.texels, [](const Rgba& t) { return t.r > 250; }));
+}
+
+TEST_F(ImageryImport, FingerprintsOfVirtualPicturesAreOfWhatTheyName) {
+    const auto fingerprint = [&](std::uint8_t grey) {
+        write(over(100, 100, 10, [=](double, double) { return Rgba{grey, grey, grey, 255}; }));
+        writeVrt("virtual.vrt", 18, "");
+        return pictureFingerprint({folder_.path("virtual.vrt")});
+    };
+    const std::uint64_t first = fingerprint(10);
+    EXPECT_NE(fingerprint(20), first);
+    EXPECT_EQ(fingerprint(10), first);
 }
 
 TEST_F(ImageryImport, LeavesHolesWhereABandsOwnMaskHides) {

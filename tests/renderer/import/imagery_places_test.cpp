@@ -111,6 +111,18 @@ TEST_F(ImageryImport, BringsPicturesOfAnotherCrsToTheTerrains) {
     expectColours(*file, 10, waves(1200));
 }
 
+/// Far from the terrain's meridian its pixels are as large as one likes.
+TEST_F(ImageryImport, HasTexelsAsFineAsAPictureOfTheEarthHasPixelsThere) {
+    std::ofstream(folder_.path("earth.vrt"))
+        << "<VRTDataset rasterXSize=\"43200\" rasterYSize=\"21600\"><SRS>EPSG:4326</SRS>"
+           "<GeoTransform>-180, 0.00833333333333333, 0, 90, 0, -0.00833333333333333</GeoTransform>"
+           "<VRTRasterBand dataType=\"Byte\" band=\"1\"/></VRTDataset>";
+    // 657 by 928 m at 45 degrees.
+    const auto file = imported(test::slope(257, 257, 100), {folder_.path("earth.vrt")});
+    ASSERT_NE(file, nullptr);
+    EXPECT_LE(file->index().imagery->pyramid.texelPosts(0), 1.19 * std::sqrt(6.57 * 9.28));
+}
+
 /// Hard case 26: a picture of all longitudes over a terrain with the pole in it. Expected is the
 /// colour of the place that PROJ says.
 TEST_F(HardCase26, APictureAroundThePoleCoversEveryTexel) {

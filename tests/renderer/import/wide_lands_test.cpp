@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <string>
@@ -200,6 +201,52 @@ TEST_F(HardCase26, GridsBeyondThePolesAndATurnHaveAllOfTheEarth) {
         EXPECT_EQ(found.open, 0) << one.west;
         EXPECT_LE(found.worst, 26);
     }
+}
+
+/// Tiles of one grid that go once around, or a rounding or a column farther.
+TEST_F(HardCase26, TilesAroundTheEarthHaveAllOfIt) {
+    struct Case {
+        double west, pixel;
+        int columns;  ///< of each tile; the second begins one earlier where both have a column
+        bool overlaps;
+    };
+    for (const Case& one :
+         {Case{-180, 1, 180, false}, Case{0, 1 + 1e-12, 180, false}, Case{-180.5, 1, 181, true}}) {
+        std::vector<std::string> tiles;
+        for (const int half : {0, 1})
+            tiles.push_back(
+                write({.epsg = kDegrees,
+                       .west = one.west + half * (one.columns - (one.overlaps ? 1 : 0)) * one.pixel,
+                       .north = 90,
+                       .pixel = one.pixel,
+                       .columns = one.columns,
+                       .rows = 180,
+                       .height = deep}));
+        for (int order = 0; order < 2; ++order) {
+            const auto dem = test::readDems(tiles);
+            ASSERT_TRUE(dem.ok()) << dem.status();
+            const Checked found = check(*dem, fromCrs(dem->crsWkt), [](const Place& at) {
+                return std::abs(at.latitude) < 89.2;
+            });
+            EXPECT_GT(found.posts, 63000);
+            EXPECT_EQ(found.open, 0) << one.west << ", " << one.columns << " order " << order;
+            std::ranges::reverse(tiles);
+        }
+    }
+}
+
+TEST_F(HardCase26, DegreesOfARotatedPoleAreRefused) {
+    const std::string path = folder_.path("rotated.vrt");
+    std::ofstream(path)
+        << R"(<VRTDataset rasterXSize="20" rasterYSize="20"><SRS>GEOGCRS["rot",BASEGEOGCRS["WGS 84",)"
+           R"(DATUM["World Geodetic System 1984",ELLIPSOID["WGS 84",6378137,298.257223563]]],)"
+           R"(DERIVINGCONVERSION["Rotated_pole",METHOD["PROJ ob_tran o_proj=longlat"],)"
+           R"(PARAMETER["o_lon_p",0],PARAMETER["o_lat_p",39.25],PARAMETER["lon_0",18]],)"
+           R"(CS[ellipsoidal,2],AXIS["longitude",east],AXIS["latitude",north],)"
+           R"(ANGLEUNIT["degree",0.0174532925199433]]</SRS>)"
+           R"(<GeoTransform>-28, 0.5, 0, 22, 0, -0.5</GeoTransform>)"
+           R"(<VRTRasterBand dataType="Float32" band="1"/></VRTDataset>)";
+    EXPECT_THAT(std::string(test::readDem(path).status().message()), HasSubstr("rotated pole"));
 }
 
 /// Pixels of a degree and of two, from a degree farther west: where the finer raster is open, the
