@@ -63,13 +63,6 @@ fabric::Vec2 postOf(const fabric::Vec2& point, const terrain::GridFrame& frame) 
     return glm::inverse(pointFromPost) * (point - frame.origin);
 }
 
-}  // namespace
-
-Georeference TexelGrid::reference(int texelShift) const {
-    const double posts = std::exp2(-texelShift);
-    return {frame.origin, frame.perColumn * posts, frame.perRow * posts};
-}
-
 /// How large pixels are that were looked at.
 struct Areas {
     double sum = 0;  ///< posts squared
@@ -84,6 +77,13 @@ struct Areas {
 
 bool isWithin(const fabric::Vec2& at, const fabric::Vec2& low, const fabric::Vec2& high) {
     return at.x >= low.x && at.y >= low.y && at.x <= high.x && at.y <= high.y;
+}
+
+}  // namespace
+
+Georeference TexelGrid::reference(int texelShift) const {
+    const double posts = std::exp2(-texelShift);
+    return {frame.origin, frame.perColumn * posts, frame.perRow * posts};
 }
 
 absl::StatusOr<ColourPlace> placeOf(const ColourFile& file, const TexelGrid& grid,
