@@ -79,8 +79,8 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     oneapi::tbb::parallel_invoke(
         [&] {
             lod = mesh::buildLodTree(
-                packed, tree, {}, [&control](double share) { control.report("levels", share); },
-                control.stop);
+                packed, tree, {.leafTriangles = options.leafTriangles},
+                [&control](double share) { control.report("levels", share); }, control.stop);
         },
         [&] { backs = mesh::findBacks(packed, tree); });
     RETURN_IF_ERROR(lod.status());

@@ -35,8 +35,7 @@ PartSurface surfaceOf(const PartMesh& own, mesh::LodPart lod, double reachMetres
     surface.reachMetres = reachMetres;
     surface.lod.height = lod.height;
     surface.mesh.lattice = own.mesh.lattice;
-    surface.isEndless =
-        lod.patch.triangles.size() > mesh::kMostUnsimplified * options.nodeTriangles;
+    surface.isEndless = lod.patch.triangles.size() > options.mostUnsimplified();
     if (surface.isEndless)
         return surface;
     surface.lod = std::move(lod);
@@ -123,7 +122,8 @@ absl::StatusOr<WrittenPart> writePart(const PartWork& work, std::uint32_t part,
                      mesh::buildKdTree(own.mesh.positions, own.mesh.triangles,
                                        {work.options.leafTriangles}, control.stop));
     const std::vector<std::uint32_t> goesOnAt = sharedOutside(own.sharedBy, part, part);
-    const mesh::LodOptions options{.goesOnAt = goesOnAt};
+    const mesh::LodOptions options{.goesOnAt = goesOnAt,
+                                   .leafTriangles = work.options.leafTriangles};
     mesh::LodParts parts;
     ASSIGN_OR_RETURN(
         const mesh::LodTree lod,
@@ -157,7 +157,8 @@ absl::StatusOr<WrittenPart> writeAbove(const PartWork& work, const SplitNode& no
     mesh::KdTree tree = treeOver(left, right);
     const std::vector<std::uint32_t> goesOnAt =
         sharedOutside(both.sharedBy, node.firstPart, node.lastPart);
-    const mesh::LodOptions options{.goesOnAt = goesOnAt};
+    const mesh::LodOptions options{.goesOnAt = goesOnAt,
+                                   .leafTriangles = work.options.leafTriangles};
     WrittenPart written;
     mesh::LodTree lod;
     if (left.isEndless || right.isEndless) {

@@ -337,8 +337,14 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
     if (hasMaterials)
         numberTextures(packing);
     const bool hasColours = !packing.source.colours.empty();
-    for (std::size_t i = 0; i < packing.source.colours.size(); ++i)
-        packing.keys[i].colour = mesh::packColour(packing.source.colours[i]);
+    const bool hasOpacity =
+        std::ranges::any_of(packing.source.materials, &mesh::Material::isSeeThrough);
+    for (std::size_t i = 0; i < packing.source.colours.size(); ++i) {
+        fabric::Rgba colour = packing.source.colours[i];
+        if (!hasOpacity)
+            colour.a = 255;  // as it is drawn
+        packing.keys[i].colour = mesh::packColour(colour);
+    }
     if (options.normals == NormalSource::Crease)
         splitAtCreases(packing, options.creaseDegrees, counts);
     else

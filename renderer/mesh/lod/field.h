@@ -3,11 +3,11 @@
 
 #include <array>
 
-/// What is linear on the triangles of a surface, between what it is at their corners: light, or
-/// normals before they are brought to length one.
+/// What is linear on the triangles of a surface, between what it is at their corners: light and
+/// opacity, or normals before they are brought to length one.
 namespace eyrie::mesh {
 
-/// Three numbers. The fourth means nothing.
+/// Four numbers; of normals the fourth is 0.
 using FieldValue [[gnu::vector_size(16)]] = float;
 
 inline FieldValue larger(const FieldValue& a, const FieldValue& b) { return a > b ? a : b; }
@@ -28,7 +28,10 @@ struct FieldRange {
         hold(other.most);
     }
     /// Whether the two are the same.
-    bool isOne() const { return least[0] == most[0] && least[1] == most[1] && least[2] == most[2]; }
+    bool isOne() const {
+        return least[0] == most[0] && least[1] == most[1] && least[2] == most[2] &&
+               least[3] == most[3];
+    }
 };
 
 inline FieldRange rangeOf(const std::array<FieldValue, 3>& corners) {

@@ -14,6 +14,7 @@
 #include "renderer/mesh/lod/components.h"
 #include "renderer/mesh/lod/patch_colours.h"
 #include "renderer/mesh/lod/patch_normals.h"
+#include "renderer/mesh/lod/shared_points.h"
 #include "renderer/mesh/lod/sheet_ends.h"
 #include "renderer/mesh/lod/simplify.h"
 
@@ -83,7 +84,8 @@ public:
           stop_(stop),
           parts_(parts),
           colours_(mesh),
-          staying_(whereOthersEnd(mesh, SheetEnds(mesh, options.goesOnAt))) {
+          staying_(whereOthersEnd(mesh, SheetEnds(mesh, options.goesOnAt))),
+          sharedFrom_(sharedFrom(mesh, tree, options.goesOnAt)) {
         lod_.geometry.resize(tree.nodes.size());
         lod_.points.resize(tree.nodes.size());
         lod_.normalErrors.resize(tree.nodes.size());
@@ -94,13 +96,15 @@ public:
     LodTree build();
 
 private:
-    LodPart visit(std::size_t index);
+    LodPart visit(std::size_t index, std::size_t depth);
     LodPart finest(std::size_t index) const;
     const Components& components();
-    Simplified simplified(const Patch& patch, const KdNode& node, std::size_t target);
-    std::optional<Simplified> simplifiedOrNothing(const LodPart& part, const KdNode& node);
+    Simplified simplified(const Patch& patch, const KdNode& node, std::size_t depth,
+                          std::size_t target);
+    std::optional<Simplified> simplifiedOrNothing(const LodPart& part, const KdNode& node,
+                                                  std::size_t depth);
     LodLevel& level(std::size_t height);
-    void standFor(LodPart& part, std::size_t index);
+    void standFor(LodPart& part, std::size_t index, std::size_t depth);
     void record(const LodPart& part, std::size_t before, const NormalError& normals);
     double reachMetres(double steps) const;
 
@@ -111,7 +115,8 @@ private:
     const std::stop_token& stop_;
     LodParts* parts_;
     const SurfaceColours colours_;
-    const std::vector<std::uint8_t> staying_;  ///< vertices
+    const std::vector<std::uint8_t> staying_;     ///< of a vertex
+    const std::vector<std::uint8_t> sharedFrom_;  ///< of a vertex
     LodTree lod_;
     std::vector<double> errorSteps_;
     std::vector<double> reachSteps_;
@@ -131,24 +136,28 @@ LodPart Builder::finest(std::size_t index) const {
     return part;
 }
 
-LodPart Builder::visit(std::size_t index) {
+LodPart Builder::visit(std::size_t index, std::size_t depth) {
     const KdNode& node = tree_.nodes[index];
     if (stop_.stop_requested())
         return {};
-    if (node.isLeaf() && parts_ != nullptr && !parts_->leaves.empty())
+    const bool isOverParts = parts_ != nullptr && !parts_->leaves.empty();
+    if (node.isLeaf() && isOverParts)
         return std::move(parts_->leaves[index]);
-    if (node.isLeaf() || node.triangleEnd - node.triangleBegin <= options_.nodeTriangles)
+    // Over parts there are more triangles of the source than are counted here.
+    if (node.isLeaf() ||
+        (!isOverParts && node.triangleEnd - node.triangleBegin <= options_.nodeTriangles))
         return finest(index);
     LodPart left, right;
-    oneapi::tbb::parallel_invoke([&] { left = visit(static_cast<std::size_t>(node.left)); },
-                                 [&] { right = visit(static_cast<std::size_t>(node.right)); });
+    oneapi::tbb::parallel_invoke(
+        [&] { left = visit(static_cast<std::size_t>(node.left), depth + 1); },
+        [&] { right = visit(static_cast<std::size_t>(node.right), depth + 1); });
     if (stop_.stop_requested())
         return {};
     append(mesh_, left.patch, std::move(right.patch));
     left.height = std::max(left.height, right.height);
     left.errorSteps = std::max(left.errorSteps, right.errorSteps);
     left.reachSteps = std::max(left.reachSteps, right.reachSteps);
-    standFor(left, index);
+    standFor(left, index, depth);
     return left;
 }
 
@@ -163,15 +172,17 @@ const Components& Builder::components() {
 
 /// The node's surface with about `target` triangles: simplified, or, where that leaves too many or
 /// goes too far, without its smallest pieces first.
-Simplified Builder::simplified(const Patch& patch, const KdNode& node, std::size_t target) {
+Simplified Builder::simplified(const Patch& patch, const KdNode& node, std::size_t depth,
+                               std::size_t target) {
+    const Staying staying{staying_, sharedFrom_, depth};
     const double diagonal = glm::length(glm::dvec3(node.boxMax) - glm::dvec3(node.boxMin));
-    Simplified plain = simplify(mesh_, patch, target, staying_);
+    Simplified plain = simplify(mesh_, patch, target, staying);
     const double error = plain.patch.error();
     if ((plain.isDone() && error <= kTooFar * diagonal) || components().count() == 1)
         return plain;
     Patch fewer = patch;
     dropComponents(mesh_, components(), node, target, kSmallPiece * diagonal, fewer);
-    Simplified sparse = simplify(mesh_, fewer, target, staying_);
+    Simplified sparse = simplify(mesh_, fewer, target, staying);
     dropComponents(mesh_, components(), node, sparse.target,
                    std::numeric_limits<double>::infinity(), sparse.patch);
     const bool areBothDone = plain.isDone() && sparse.isDone();
@@ -183,12 +194,13 @@ Simplified Builder::simplified(const Patch& patch, const KdNode& node, std::size
 }
 
 /// Nothing where that does not pay.
-std::optional<Simplified> Builder::simplifiedOrNothing(const LodPart& part, const KdNode& node) {
+std::optional<Simplified> Builder::simplifiedOrNothing(const LodPart& part, const KdNode& node,
+                                                       std::size_t depth) {
     const std::size_t before = part.patch.triangles.size();
-    if (before > kMostUnsimplified * options_.nodeTriangles)
+    if (before > options_.mostUnsimplified())
         return std::nullopt;
-    Simplified result =
-        simplified(part.patch, node, std::min<std::size_t>(before / 2, options_.nodeTriangles));
+    Simplified result = simplified(part.patch, node, depth,
+                                   std::min<std::size_t>(before / 2, options_.nodeTriangles));
     {
         const std::lock_guard lock(mutex_);
         level(part.height + 1).points += result.points;
@@ -203,9 +215,9 @@ std::optional<Simplified> Builder::simplifiedOrNothing(const LodPart& part, cons
 /// Finds what is drawn for a node: fewer triangles, which then stand for it further up; or points,
 /// where there are none, or worse ones; or neither, and the node is drawn by its children. Without
 /// triangles of its own the part stays as it is.
-void Builder::standFor(LodPart& part, std::size_t index) {
+void Builder::standFor(LodPart& part, std::size_t index, std::size_t depth) {
     const KdNode& node = tree_.nodes[index];
-    std::optional<Simplified> fewer = simplifiedOrNothing(part, node);
+    std::optional<Simplified> fewer = simplifiedOrNothing(part, node, depth);
     const std::size_t before = part.patch.triangles.size();
     const double diagonal = glm::length(glm::dvec3(node.boxMax) - glm::dvec3(node.boxMin));
     const bool mayBeBetter = !fewer || fewer->patch.error() > kSmallPiece * diagonal;
@@ -263,7 +275,7 @@ double Builder::reachMetres(double steps) const {
 
 LodTree Builder::build() {
     if (!tree_.nodes.empty()) {
-        LodPart root = visit(0);
+        LodPart root = visit(0, 0);
         if (parts_ != nullptr)
             parts_->root = std::move(root);
     }

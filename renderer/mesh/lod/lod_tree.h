@@ -30,7 +30,14 @@ struct LodOptions {
     /// Where triangles cannot stand for a node, or not well, points do, if it has as many triangles
     /// as this.
     std::size_t sampledTriangles = 8192;
-    std::size_t nodePoints = 4096;  ///< how many, at most
+    std::size_t nodePoints = 4096;                            ///< how many, at most
+    std::uint32_t leafTriangles = KdOptions().leafTriangles;  ///< of the tree's leaves, at most
+
+    /// More triangles are not simplified: those of four nodes' surfaces, or of two leaves.
+    std::size_t mostUnsimplified() const {
+        return std::max<std::size_t>(4 * std::size_t{nodeTriangles},
+                                     2 * std::size_t{leafTriangles});
+    }
 };
 
 /// A node's surface on its way up.
@@ -74,9 +81,9 @@ struct LodTree {
     /// it, and of any point of that to the source; what the lattice rounds included. Measured,
     /// never below the children's.
     std::vector<double> errorMetres;
-    /// At any point of what stands for a node the colour, channel by channel and as displayed, is
-    /// within kColourTolerance of those that the source has within this, or within the error where
-    /// that is more. 0 where it is so within the error. Never below the children's.
+    /// At any point of what stands for a node the colour, channel by channel and as displayed, and
+    /// the opacity is within kColourTolerance of those that the source has within this, or within
+    /// the error where that is more. 0 where it is so within the error. Never below the children's.
     std::vector<double> colourReachMetres;
     /// Of what stands for a node itself; 0 of others.
     std::vector<NormalError> normalErrors;
@@ -89,11 +96,8 @@ struct LodTree {
     }
 };
 
-/// More triangles than this, times LodOptions::nodeTriangles, are not simplified.
-inline constexpr std::size_t kMostUnsimplified = 4;
-
-/// Simplifies bottom-up: a node's surface is made of its children's, with the vertices on the
-/// node's border left alone until the node that has both sides. Any cut through the tree is
+/// Simplifies bottom-up: a node's surface is made of its children's, with the vertices that other
+/// nodes have, too, left alone until the node that has all around them. Any cut through the tree is
 /// therefore without cracks. The result depends on the mesh alone. With `parts`, a tree under or
 /// over others: all of them together are as one tree would be. Errors: Cancelled.
 absl::StatusOr<LodTree> buildLodTree(const PackedMesh& mesh, const KdTree& tree,

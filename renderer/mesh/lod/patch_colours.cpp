@@ -9,24 +9,15 @@
 #include "renderer/mesh/vertex_packing.h"
 
 namespace eyrie::mesh {
-namespace {
-
-std::uint32_t withoutAlpha(std::uint32_t colour) {
-    fabric::Rgba parts = unpackColour(colour);
-    parts.a = 0;
-    return packColour(parts);
-}
-
-}  // namespace
-
 /// A corner of weight w is within (1 - w) times the longest side. Without those of less than t, of
 /// which there are two at most, light changes by less than 2t times what the corners differ by:
-/// most as displayed where they are darkest. A third of all weights is the least that the greatest
-/// has.
+/// most as displayed where they are darkest. Opacity changes so at any. A third of all weights is
+/// the least that the greatest has.
 float reachShare(const FieldRange& shown) {
     float least = 1.0F / 3;
-    for (int k = 0; k < 3; ++k) {
-        const float tolerable = (2 * std::sqrt(shown.least[k]) + kMostTint) * kMostTint;
+    for (int k = 0; k < 4; ++k) {
+        const float tolerable =
+            k < 3 ? (2 * std::sqrt(shown.least[k]) + kMostTint) * kMostTint : kMostTint;
         const float span = shown.most[k] - shown.least[k];
         if (2 * least * span > tolerable)
             least = tolerable / (2 * span);
@@ -56,11 +47,10 @@ bool hasOneColour(const PackedMesh& mesh, const Patch& patch) {
         return true;
     if (!patch.tints.empty())
         return false;
-    const std::uint32_t first = withoutAlpha(mesh.colours[patch.triangles[0][0]]);
+    const std::uint32_t first = mesh.colours[patch.triangles[0][0]];
     return std::ranges::all_of(patch.triangles, [&](const Triangle& triangle) {
-        return std::ranges::all_of(triangle, [&](std::uint32_t vertex) {
-            return withoutAlpha(mesh.colours[vertex]) == first;
-        });
+        return std::ranges::all_of(
+            triangle, [&](std::uint32_t vertex) { return mesh.colours[vertex] == first; });
     });
 }
 

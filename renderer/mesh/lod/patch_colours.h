@@ -8,12 +8,12 @@
 #include "renderer/mesh/lod/tints.h"
 #include "renderer/mesh/packed_mesh.h"
 
-/// The colours of meshes' vertices on patches: how far from where the source has it a colour may be
-/// shown. docs/errors.md#vertex-colours.
+/// The colours of meshes' vertices, and their opacity, on patches: how far from where the source
+/// has it a colour may be shown. docs/errors.md#vertex-colours.
 namespace eyrie::mesh {
 
-/// In a channel, as displayed, of 1: what is off by no more has no error. Half a step of a byte is
-/// left for the rounding of points' colours.
+/// In a channel, as displayed, or in opacity, of 1: what is off by no more has no error. Half a
+/// step of a byte is left for the rounding of points' colours.
 inline constexpr float kColourTolerance = 8.0F / 255;
 inline constexpr float kMostTint = kColourTolerance - 0.5F / 255;
 

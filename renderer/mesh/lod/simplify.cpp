@@ -43,7 +43,7 @@ struct Collapse {
 
 class Simplifier {
 public:
-    Simplifier(const PackedMesh& mesh, const Patch& patch, std::span<const std::uint8_t> staying);
+    Simplifier(const PackedMesh& mesh, const Patch& patch, const Staying& staying);
 
     Simplified run(std::size_t target);
 
@@ -86,15 +86,15 @@ private:
     std::vector<FieldValue> firstNormals_;  ///< of a point's first vertex
     std::vector<Collapse> best_;            ///< of a point
     std::vector<bool> isStale_;             ///< whether something changed around it since
-    std::vector<bool> isStaying_;           ///< of a point
+    std::vector<bool> isStaying_;           ///< of a point, in every patch
+    std::vector<bool> isShared_;            ///< of a point, with other nodes: it stays, too
     std::vector<bool> isInner_;             ///< whether it had a closed ring at first, and may go
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
     std::size_t left_;
     PointCounts counts_;
 };
 
-Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch,
-                       std::span<const std::uint8_t> staying)
+Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch, const Staying& staying)
     : mesh_(mesh),
       surface_(mesh, patch.triangles),
       shifts_(patch.shifts),
@@ -102,6 +102,7 @@ Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch,
       best_(surface_.points()),
       isStale_(surface_.points(), false),
       isStaying_(surface_.points(), false),
+      isShared_(surface_.points(), false),
       left_(patch.triangles.size()) {
     if (!hasOneColour(mesh, patch))
         tints_ = tintsOf(mesh, patch);
@@ -113,11 +114,13 @@ Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch,
         for (const auto& [corners, isThere] : surface_.faces())
             normals_.emplace_back(
                 rangeOf({normalAt(corners[0]), normalAt(corners[1]), normalAt(corners[2])}));
-    if (!staying.empty())
-        for (const Face& face : surface_.faces())
-            for (const Corner& corner : face.corners)
-                if (staying[corner.vertex] != 0)
-                    isStaying_[corner.point] = true;
+    for (const Face& face : surface_.faces())
+        for (const Corner& corner : face.corners) {
+            if (staying.everywhere[corner.vertex] != 0)
+                isStaying_[corner.point] = true;
+            if (staying.sharedFrom[corner.vertex] <= staying.depth)
+                isShared_[corner.point] = true;
+        }
 }
 
 /// Whether it may go, as far as its faces and normals tell.
@@ -243,7 +246,7 @@ std::pair<std::size_t, double> Simplifier::cheapest(std::uint32_t point, const S
 
 /// Few collapses are not simple, so most are asked only once it is their turn.
 Collapse Simplifier::bestCollapse(std::uint32_t point, bool mustBeSimple) {
-    if (!lookAt(point) || isStaying_[point])
+    if (!lookAt(point) || isStaying_[point] || isShared_[point])
         return {};
     const Star star = this->star(point);
     if (!star.isFlat())
@@ -305,6 +308,8 @@ void Simplifier::count(std::uint32_t point) {
         ++counts_.staying;
     else if (!surface_.isRing())
         ++(surface_.isOpen() ? counts_.onBorder : counts_.staying);
+    else if (isShared_[point])
+        ++counts_.onBorder;
 }
 
 Simplified Simplifier::run(std::size_t target) {
@@ -316,7 +321,7 @@ Simplified Simplifier::run(std::size_t target) {
     };
     for (std::uint32_t point = 0; point < surface_.points(); ++point) {
         look(point);
-        isInner_.push_back(surface_.isRing() && !isStaying_[point]);
+        isInner_.push_back(surface_.isRing() && !isStaying_[point] && !isShared_[point]);
         count(point);
     }
     const auto border = static_cast<std::size_t>(std::ranges::count(isInner_, false));
@@ -357,7 +362,7 @@ PointCounts& PointCounts::operator+=(const PointCounts& more) {
 }
 
 Simplified simplify(const PackedMesh& mesh, const Patch& patch, std::size_t target,
-                    std::span<const std::uint8_t> staying) {
+                    const Staying& staying) {
     return Simplifier(mesh, patch, staying).run(target);
 }
 

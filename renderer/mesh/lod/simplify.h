@@ -35,6 +35,13 @@ struct Simplified {
     bool isDone() const { return patch.triangles.size() <= target; }
 };
 
+/// Of the mesh's vertices, which stay whatever it costs.
+struct Staying {
+    std::span<const std::uint8_t> everywhere;  ///< 1 for those that do so in every patch, else 0
+    std::span<const std::uint8_t> sharedFrom;  ///< how deep nodes lie that have not all around it
+    std::size_t depth = 0;                     ///< of the patch's node, the root at 0
+};
+
 /// Takes inner vertices of `patch` away, each time the one that makes the least bound, until about
 /// `target` triangles, and half a one for each point that has to stay, are left or none can go:
 /// beside edges that stay there are as many triangles as before, and the inside is not to make up
@@ -45,10 +52,11 @@ struct Simplified {
 ///
 /// Stay: vertices on the border, so that the patch fits its neighbours whatever is done to them;
 /// those where more than two sheets meet, or normals, colours, texture coordinates or materials are
-/// broken; those of `staying`, which has a 1 for each, if anything; and those whose star is no
-/// graph (star.h). A vertex that is left keeps all that it has. R. Klein, G. Liebich, W. Straßer,
-/// "Mesh Reduction with Error Control", 1996.
+/// broken; those of `staying`: where other sheets touch (sheet_ends.h) and where other nodes have
+/// triangles, too (shared_points.h); and those whose star is no graph (star.h). A vertex that is
+/// left keeps all that it has. R. Klein, G. Liebich, W. Straßer, "Mesh Reduction with Error
+/// Control", 1996.
 Simplified simplify(const PackedMesh& mesh, const Patch& patch, std::size_t target,
-                    std::span<const std::uint8_t> staying = {});
+                    const Staying& staying);
 
 }  // namespace eyrie::mesh

@@ -9,12 +9,13 @@
 
 namespace eyrie::mesh {
 
-/// Red, green and blue as light: the square of what is displayed, which is linear on a triangle
-/// between its corners (effects/object.block).
+/// What is linear on a triangle between its corners (effects/object.block): red, green and blue as
+/// light, the square of what is displayed, and the opacity as it is.
 inline FieldValue lightOf(const fabric::Rgba& colour) {
     const FieldValue shown = {static_cast<float>(colour.r), static_cast<float>(colour.g),
-                              static_cast<float>(colour.b), 0};
-    return shown * shown * (1.0F / (255.0F * 255.0F));
+                              static_cast<float>(colour.b), static_cast<float>(colour.a)};
+    const FieldValue times = {shown[0], shown[1], shown[2], 255.0F};
+    return shown * times * (1.0F / (255.0F * 255.0F));
 }
 
 /// As displayed, of 1.
@@ -32,11 +33,12 @@ inline FieldValue mostAbove(const FieldRange& low, const FieldRange& high, const
     return roots(smaller(high.most, from + by)) - roots(from);
 }
 
-/// The most that a triangle which shows `shown` is off in a channel, as displayed, of 1.
+/// The most that a triangle which shows `shown` is off in a channel, as displayed, or in opacity,
+/// of 1.
 inline float mostTint(const FieldChanges& tints, const FieldRange& shown) {
     const FieldValue off = larger(mostAbove(tints.source(), shown, tints.up()),
                                   mostAbove(shown, tints.source(), tints.down()));
-    return std::max({off[0], off[1], off[2]});
+    return std::max({off[0], off[1], off[2], tints.up()[3], tints.down()[3]});
 }
 
 }  // namespace eyrie::mesh

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes that are imported part by part: the file, what is said, and what is left where it fails.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <numbers>
 #include <random>
 #include <stop_token>
 #include <string>
@@ -167,6 +169,34 @@ TEST(MeshImport, ByPartsGivesTheSameBytesWithCreasesAndSourcePositions) {
         soup(8, 5000),
         {.leafTriangles = 1000,
          .pack = {.keepsExact = true, .normals = NormalSource::Crease, .creaseDegrees = 20}});
+}
+
+/// Apart from each other, so that nothing stays for the sake of borders.
+TriangleMesh twoRings(std::uint32_t around) {
+    constexpr std::uint32_t kAcross = 3;
+    TriangleMesh mesh;
+    for (const double aside : {0.0, 10.0}) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (std::uint32_t i = 0; i < around; ++i)
+            for (std::uint32_t k = 0; k < kAcross; ++k) {
+                const double u = 2 * std::numbers::pi * i / around;
+                const double v = 2 * std::numbers::pi * k / kAcross;
+                const double radius = 3 + std::cos(v);
+                mesh.positions.emplace_back(radius * std::cos(u) + aside, radius * std::sin(u),
+                                            std::sin(v));
+                const auto at = [&](std::uint32_t row, std::uint32_t column) {
+                    return first + row % around * kAcross + column % kAcross;
+                };
+                mesh.triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+                mesh.triangles.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+            }
+    }
+    return mesh;
+}
+
+/// Parts come to half their triangles, which two of them together are few enough to be drawn as.
+TEST(MeshImport, ByPartsGivesTheSameBytesWhereTwoPartsAreNoMoreThanANode) {
+    expectSameByParts(twoRings(2731));
 }
 
 TEST(MeshImport, CountsTheNodesThatPointsStandFor) {

@@ -23,6 +23,7 @@ namespace {
 
 using fabric::Rgba;
 using fabric::Vec3;
+using fabric::Vec4;
 using test::Levels;
 
 /// Of `colour` at each vertex, or of none.
@@ -62,7 +63,7 @@ Rgba gradient(const Vec3& at) {
     return {part(at.x), part(at.y), part(at.z), 255};
 }
 
-/// Least and most light of a channel.
+/// Least and most of a channel's light, or of opacity.
 struct Range {
     double least = 2;
     double most = -1;
@@ -74,18 +75,21 @@ struct Range {
 
 struct Corner {
     Vec3 place;
-    Vec3 light;
+    Vec4 light;  ///< and the opacity
 };
+
+Vec4 lightOf(const Rgba& colour) {
+    const Vec4 shown = Vec4(colour.r, colour.g, colour.b, colour.a) / 255.0;
+    return {shown.r * shown.r, shown.g * shown.g, shown.b * shown.b, shown.a};
+}
 
 class Judge {
 public:
     explicit Judge(const Levels& levels) : levels_(levels) {}
 
     Corner corner(std::uint32_t vertex) const {
-        const Rgba colour = unpackColour(levels_.mesh.colours[vertex]);
-        const Vec3 shown = Vec3(colour.r, colour.g, colour.b) / 255.0;
         return {levels_.mesh.lattice.metres(unpackPosition(levels_.mesh.positions[vertex])),
-                shown * shown};
+                lightOf(unpackColour(levels_.mesh.colours[vertex]))};
     }
 
     void look(const KdNode& node) {
@@ -96,9 +100,10 @@ public:
         }
     }
 
-    /// How far a light shown at a place is off the source's within a distance, as displayed.
+    /// How far a light shown at a place is off the source's within a distance, as displayed, or the
+    /// opacity.
     double off(const Corner& shown, double distance) const {
-        std::array<Range, 3> ranges;
+        std::array<Range, 4> ranges;
         for (const auto& triangle : source_) holdWithin(triangle, shown.place, distance, ranges);
         double most = 0;
         for (int k = 0; k < 3; ++k) {
@@ -106,16 +111,16 @@ public:
             most = std::max({most, std::sqrt(shown.light[k]) - std::sqrt(std::max(range.most, 0.0)),
                              std::sqrt(range.least) - std::sqrt(shown.light[k])});
         }
-        return most;
+        return std::max({most, shown.light.a - ranges[3].most, ranges[3].least - shown.light.a});
     }
 
 private:
     /// All that is within a ball of a triangle: what is linear is extreme at its corners, where its
     /// sides leave the ball, or farthest along its slope in the plane.
     static void holdWithin(const std::array<Corner, 3>& triangle, const Vec3& middle, double radius,
-                           std::array<Range, 3>& ranges) {
-        const auto hold = [&](const Vec3& light) {
-            for (int k = 0; k < 3; ++k) ranges[static_cast<std::size_t>(k)].hold(light[k]);
+                           std::array<Range, 4>& ranges) {
+        const auto hold = [&](const Vec4& light) {
+            for (int k = 0; k < 4; ++k) ranges[static_cast<std::size_t>(k)].hold(light[k]);
         };
         const Vec3 low =
             glm::min(glm::min(triangle[0].place, triangle[1].place), triangle[2].place);
@@ -160,7 +165,7 @@ private:
                      c * triangle[2].light);
         };
         holdIfOn(foot);
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < 4; ++k) {
             const Vec3 slope = (triangle[1].light[k] - triangle[0].light[k]) * toB +
                                (triangle[2].light[k] - triangle[0].light[k]) * toC;
             if (glm::length(slope) > 0)
@@ -179,10 +184,10 @@ std::vector<Corner> shownBy(const Levels& levels, const Judge& judge, std::size_
     std::vector<Corner> shown;
     if (const auto& points = levels.lod.points[index]) {
         for (std::size_t i = 0; i < points->positions.size(); i += 3) {
-            const Rgba colour = unpackColour(points->colours[i]);
-            const Vec3 bytes = Vec3(colour.r, colour.g, colour.b) / 255.0;
+            Vec4 light = lightOf(unpackColour(points->colours[i]));
+            light.a = 1;  // of a point alpha says from where it is seen
             shown.push_back(
-                {levels.mesh.lattice.metres(unpackPosition(points->positions[i])), bytes * bytes});
+                {levels.mesh.lattice.metres(unpackPosition(points->positions[i])), light});
         }
         return shown;
     }
@@ -191,7 +196,7 @@ std::vector<Corner> shownBy(const Levels& levels, const Judge& judge, std::size_
         const double a = std::sqrt(share(random));
         const double b = share(random);
         const std::array<double, 3> weights = {1 - a, a * (1 - b), a * b};
-        Corner at{Vec3(0), Vec3(0)};
+        Corner at{Vec3(0), Vec4(0)};
         for (std::size_t k = 0; k < 3; ++k) {
             const Corner corner = judge.corner(triangle[k]);
             at.place += weights[k] * corner.place;
@@ -255,6 +260,28 @@ TEST(ColourReach, HoldsOfAPlaneWhoseChecksVanishAndIsNotManyTimesTooLong) {
     const Found found = checkLaw(levelsOf(plane(96), checks(6)));
     EXPECT_GT(found.withReach, 5U);
     EXPECT_GT(found.offNearby, 10U);
+}
+
+import::TriangleMesh blended(import::TriangleMesh mesh){mesh.materials = {{.flags = kIsBlended}};
+mesh.materialOf.assign(mesh.positions.size(), 0);
+return mesh;
+}  // namespace
+
+std::function<Rgba(const Vec3&)> veil(double side) {
+    return [colour = checks(side)](const Vec3& at) { return Rgba{200, 90, 7, colour(at).r}; };
+}
+
+TEST(ColourReach, HoldsOfOpacity) {
+    const Found found = checkLaw(levelsOf(blended(plane(96)), veil(6)));
+    EXPECT_GT(found.withReach, 5U);
+    EXPECT_GT(found.offNearby, 10U);
+}
+
+/// What nothing is seen through costs no triangles.
+TEST(ColourReach, IsNoneOfOpacityThatIsNotDrawn) {
+    const Levels levels = levelsOf(plane(96), veil(6));
+    EXPECT_EQ(levels.lod.geometry, levelsOf(plane(96), {}).lod.geometry);
+    EXPECT_EQ(levels.lod.colourReachMetres.front(), 0);
 }
 
 TEST(ColourReach, HoldsWhereVerticesOfOnePlaceHaveSeveralColours) {
@@ -326,5 +353,5 @@ TEST(ColourReach, IsNoneOfColoursThatChangeEvenly) {
     EXPECT_LE(levels.lod.levels[4].trianglesAfter, levels.mesh.triangles.size() / 20);
 }
 
-}  // namespace
+}  // namespace eyrie::mesh
 }  // namespace eyrie::mesh

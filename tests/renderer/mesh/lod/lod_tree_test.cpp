@@ -212,8 +212,8 @@ PackedMesh ladders() {
     return mesh;
 }
 
-/// Hills, and a fence whose foot is a step above every post of one row of theirs.
-PackedMesh hillsAndFence() {
+/// Hills, and a fence with a foot and a top so far from each post of one row of theirs.
+PackedMesh hillsAndFence(const glm::ivec3& foot, const glm::ivec3& top) {
     constexpr std::uint32_t kPosts = 100;
     PackedMesh mesh;
     mesh.lattice = {{0, 0, 0}, 0.25};
@@ -232,16 +232,16 @@ PackedMesh hillsAndFence() {
             if (x + 1 < kPosts && y + 1 < kPosts)
                 rectangle(y * kPosts + x, kPosts);
         }
-    for (const std::uint32_t above : {1U, 2001U})
+    for (const glm::ivec3& away : {foot, top})
         for (std::uint32_t x = 0; x < kPosts; ++x)
-            add(unpackPosition(mesh.positions[50 * kPosts + x]) + glm::uvec3(0, 0, above));
+            add(glm::uvec3(glm::ivec3(unpackPosition(mesh.positions[30 * kPosts + x])) + away));
     for (std::uint32_t x = 0; x + 1 < kPosts; ++x) rectangle(kPosts * kPosts + x, kPosts);
     return mesh;
 }
 
 /// However much else of the hills goes, no slit opens under the fence.
 TEST(LodTree, KeepsSheetsTogetherThatTouchWithoutSharingPoints) {
-    const Levels levels = levelsOf(hillsAndFence());
+    const Levels levels = levelsOf(hillsAndFence({0, 0, 1}, {0, 0, 2001}));
     std::size_t simpler = 0;
     for (std::size_t i = 0; i < levels.tree.nodes.size(); ++i) {
         std::vector<Triangle> hills;
@@ -265,6 +265,42 @@ TEST(LodTree, KeepsSheetsTogetherThatTouchWithoutSharingPoints) {
     }
     EXPECT_GT(simpler, 20U);
     EXPECT_LE(levels.lod.geometry[0].size(), kNodeTriangles * 3);
+}
+
+/// Of posts that a fence starts from none goes, though the fence, which leans over, is in nodes of
+/// its own, and the hills alone go on all around them there.
+TEST(LodTree, KeepsWhereASheetOfAnotherNodeStarts) {
+    const Levels levels = levelsOf(hillsAndFence({0, 0, 0}, {0, -29'000, 2000}));
+    std::size_t looks = 0;
+    for (std::size_t i = 0; i < levels.tree.nodes.size(); ++i) {
+        std::set<std::uint64_t> there;
+        for (const Triangle& triangle : levels.lod.geometry[i])
+            for (const std::uint32_t vertex : triangle)
+                if (vertex < 10'000)
+                    there.insert(levels.mesh.positions[vertex]);
+        if (there.empty())
+            continue;
+        for (const Triangle& triangle : sourceOf(levels, levels.tree.nodes[i]))
+            for (const std::uint32_t vertex : triangle)
+                if (vertex >= 3000 && vertex < 3100) {
+                    ++looks;
+                    EXPECT_TRUE(there.contains(levels.mesh.positions[vertex])) << "node " << i;
+                }
+    }
+    EXPECT_GT(looks, 1000U);
+}
+
+TEST(LodTree, SimplifiesLeavesHoweverLarge) {
+    const PackedMesh& mesh = bumpyBall().mesh;
+    const auto leaf = static_cast<std::uint32_t>(mesh.triangles.size() / 2 + 1);
+    const auto tree = buildKdTree(mesh.positions, mesh.triangles, {leaf});
+    ASSERT_TRUE(tree.ok());
+    const auto lod =
+        buildLodTree(mesh, *tree, {.nodeTriangles = kNodeTriangles, .leafTriangles = leaf});
+    ASSERT_TRUE(lod.ok());
+    ASSERT_EQ(lod->geometry.size(), 3U);
+    EXPECT_FALSE(lod->geometry[0].empty());
+    EXPECT_LE(lod->geometry[0].size(), kNodeTriangles);
 }
 
 TEST(LodTree, WhatDoesNotSimplifyIsPoints) {
