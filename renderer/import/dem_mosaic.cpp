@@ -14,6 +14,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "fabric/status.h"
+#include "renderer/import/dem_order.h"
 #include "renderer/import/dem_warp.h"
 #include "renderer/import/joined_dems.h"
 #include "renderer/import/layered_dems.h"
@@ -23,16 +24,6 @@ namespace eyrie::import {
 namespace {
 
 using fabric::Vec2;
-
-/// Side of a pixel, about.
-double pixelMetres(const DemFile& file) {
-    constexpr double kMetresPerDegree = 111320;
-    const double side = std::sqrt(std::abs(determinant(file.reference)));
-    if (file.isGeographic())
-        return side * kMetresPerDegree *
-               std::sqrt(std::max(0.01, std::cos(centreOf(file).y * M_PI / 180)));
-    return file.crs ? side * OSRGetLinearUnits(file.crs.get(), nullptr) : side;
-}
 
 /// Share of a grid's posts: where rasters have fewer, people should know.
 constexpr double kMostlyEmpty = 0.1;
@@ -58,21 +49,15 @@ public:
 
     absl::StatusOr<DemSource> open() {
         RETURN_IF_ERROR(check());
-        order_.resize(files_.size());
-        for (std::size_t k = 0; k < order_.size(); ++k) order_[k] = order_.size() - 1 - k;
-        std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
-            return pixelMetres(files_[a]) < pixelMetres(files_[b]) * (1 - kEquallyFine);
-        });
+        order_ = bestFirst(files_);
         RETURN_IF_ERROR(chooseCrs());
         RETURN_IF_ERROR(chooseGrid());
         std::vector<DemLayer> layers;
-        for (std::size_t k = 0; k < order_.size();) {
-            std::vector<DemFile> run;
-            const bool isOne = isOnGrid(files_[order_[k]]);
-            do {
-                run.push_back(std::move(files_[order_[k++]]));
-            } while (!isOne && k < order_.size() && isNextOfRun(run, files_[order_[k]]));
-            ASSIGN_OR_RETURN(std::optional<DemLayer> layer, layerOf(std::move(run)));
+        const auto isAlone = [this](const DemFile& file) { return isOnGrid(file); };
+        for (const std::vector<std::size_t>& run : runsOf(files_, order_, isAlone)) {
+            std::vector<DemFile> together;
+            for (const std::size_t k : run) together.push_back(std::move(files_[k]));
+            ASSIGN_OR_RETURN(std::optional<DemLayer> layer, layerOf(std::move(together)));
             if (layer)
                 layers.push_back(*std::move(layer));
         }
@@ -80,8 +65,6 @@ public:
     }
 
 private:
-    static constexpr double kEquallyFine = 0.01;
-
     absl::Status check() {
         for (const DemFile& file : files_) {
             if (!file.isGeoreferenced)
@@ -255,12 +238,6 @@ private:
         return std::abs(g.perColumn.x / grid_.width - 1) * file.columns < kPixels &&
                std::abs(-g.perRow.y / grid_.height - 1) * file.rows < kPixels &&
                std::abs(x - std::round(x)) < kPixels && std::abs(y - std::round(y)) < kPixels;
-    }
-
-    /// Whether `next`, too, is resampled and lies on the grid of `run`. Only what follows in order
-    /// may join: whoever is between would else win or lose against the wrong ones.
-    bool isNextOfRun(const std::vector<DemFile>& run, const DemFile& next) const {
-        return !isOnGrid(next) && isOneGrid(run.front(), next);
     }
 
     /// Pixels of the grid that a raster covers, or nearly: its warper says which, to a pixel. Where

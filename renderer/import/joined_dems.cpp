@@ -126,8 +126,7 @@ Vec2 originBeside(const DemFile& first, const DemFile& file) {
 
 bool isOneGrid(const DemFile& first, const DemFile& file) {
     constexpr int kFarthest = 1 << 29;  // so that GDAL can count all of them
-    if (!isSameCrs(first.crs.get(), file.crs.get()) ||
-        std::max({first.columns, first.rows, file.columns, file.rows}) >= kFarthest)
+    if (std::max({first.columns, first.rows, file.columns, file.rows}) >= kFarthest)
         return false;
     const Vec2 origin = originBeside(first, file);
     const Vec2 place = glm::round(inPixels(first.reference, origin));
@@ -141,7 +140,8 @@ bool isOneGrid(const DemFile& first, const DemFile& file) {
     const double rows = file.rows;
     return std::abs(place.x) < kFarthest && std::abs(place.y) < kFarthest &&
            isThere(origin, {0, 0}) && isThere(origin + own.perColumn * columns, {columns, 0}) &&
-           isThere(origin + own.perRow * rows, {0, rows});
+           isThere(origin + own.perRow * rows, {0, rows}) &&
+           isSameCrs(first.crs.get(), file.crs.get());
 }
 
 Dataset joined(std::span<const DemFile> files) {
