@@ -28,6 +28,7 @@ struct ColourRule {
     const GDALColorTable* palette = nullptr;
     std::array<std::optional<double>, 3> nodata;
     double bytePerValue = 1;
+    std::optional<double> brightest;  ///< value, where none is said to be the most
     double alphaBytePerValue = 1;
 };
 
@@ -48,22 +49,27 @@ std::array<int, 3> colourBands(GDALDataset& dataset, int alpha) {
     return colours >= 3 ? std::array{1, 2, 3} : std::array{1, 1, 1};
 }
 
-/// The largest value that bands of other than 8 bits hold, by their tag or by a look at them.
-absl::StatusOr<double> brightest(const std::string& path, GDALDataset& dataset,
-                                 const std::array<int, 3>& bands) {
+/// The largest value that each of some bands may have by its tag, of the largest; none without
+/// tags.
+std::optional<double> mostByTag(GDALDataset& dataset, const std::array<int, 3>& bands) {
     double most = 0;
     for (const int number : bands) {
-        GDALRasterBand* const band = dataset.GetRasterBand(number);
-        if (const char* bits = band->GetMetadataItem("NBITS", "IMAGE_STRUCTURE")) {
-            most = std::max(most, std::exp2(std::clamp(std::atoi(bits), 1, 16)) - 1);
-            continue;
-        }
-        std::array<double, 2> range{};
-        if (band->ComputeRasterMinMax(FALSE, range.data()) == CE_None)
-            most = std::max(most, range[1]);
+        const char* const bits =
+            dataset.GetRasterBand(number)->GetMetadataItem("NBITS", "IMAGE_STRUCTURE");
+        if (bits == nullptr)
+            return std::nullopt;
+        most = std::max(most, std::exp2(std::clamp(std::atoi(bits), 1, 16)) - 1);
     }
-    if (!(most > 0))
-        return invalid(path, "holds no value above 0; is it the picture you mean?");
+    return most;
+}
+
+/// Of all values, at least 0.
+double brightest(GDALDataset& dataset, const std::array<int, 3>& bands) {
+    double most = 0;
+    for (const int number : bands)
+        if (std::array<double, 2> range{};
+            dataset.GetRasterBand(number)->ComputeRasterMinMax(FALSE, range.data()) == CE_None)
+            most = std::max(most, range[1]);
     return most;
 }
 
@@ -76,6 +82,10 @@ double opaque(GDALRasterBand& alpha) {
         alpha.ComputeRasterMinMax(FALSE, range.data()) == CE_None && range[1] <= 255)
         return 255;
     return alpha.GetRasterDataType() == GDT_Int16 ? 32767 : 65535;
+}
+
+std::string turnedToBytes(const std::string& path, double most) {
+    return fmt::format("{}: values of 0 to {} turned to 8 bits", path, most);
 }
 
 absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& dataset,
@@ -100,9 +110,12 @@ absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& data
     }
     const bool isNarrow = first->GetMetadataItem("NBITS", "IMAGE_STRUCTURE") != nullptr;
     if ((type != GDT_Byte || isNarrow) && rule.palette == nullptr) {
-        ASSIGN_OR_RETURN(const double most, brightest(path, dataset, rule.colours));
-        rule.bytePerValue = 255 / most;
-        notes.push_back(fmt::format("{}: values of 0 to {} turned to 8 bits", path, most));
+        if (const auto most = mostByTag(dataset, rule.colours)) {
+            rule.bytePerValue = 255 / *most;
+            notes.push_back(turnedToBytes(path, *most));
+        } else {
+            rule.brightest = brightest(dataset, rule.colours);
+        }
     }
     if (rule.alpha != 0 && dataset.GetRasterBand(rule.alpha)->GetRasterDataType() != GDT_Byte)
         rule.alphaBytePerValue = 255 / opaque(*dataset.GetRasterBand(rule.alpha));
@@ -159,6 +172,8 @@ public:
     const OGRSpatialReference* GetSpatialRef() const override {
         return GDALDataset::FromHandle(source_.get())->GetSpatialRef();
     }
+
+    void setMost(double value) { rule_.bytePerValue = 255 / value; }
 
     /// The four channels of a rectangle, one after the other.
     CPLErr read(int i, int j, int columns, int rows, std::vector<std::uint8_t>& out) {
@@ -282,10 +297,16 @@ absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gd
     Georeference reference{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}};
     int columns = GDALGetRasterXSize(dataset.get());
     cutToOneTurn(file.isGeoreferenced ? crs : nullptr, reference, columns);
+    file.brightest = rule.brightest;
     file.dataset.reset(GDALDataset::ToHandle(new ColourDataset(std::move(dataset), columns, rule)));
     if (file.isGeoreferenced)
         GDALSetGeoTransform(file.dataset.get(), geoTransform(reference).data());
     return file;
+}
+
+void turnToBytes(ColourFile& file, double most) {
+    static_cast<ColourDataset*>(GDALDataset::FromHandle(file.dataset.get()))->setMost(most);
+    file.notes.push_back(turnedToBytes(file.path, most));
 }
 
 }  // namespace eyrie::import

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,13 +20,20 @@ struct ColourFile {
     Dataset dataset;
     bool isGeoreferenced = false;
     SpatialReference crs;  ///< null: none
+    /// The largest value, at least 0, of a picture of more than 8 bits that does not say what the
+    /// most may be: nothing may be read before turnToBytes().
+    std::optional<double> brightest;
     std::vector<std::string> notes;
 };
 
 /// Looks at everything but the pixels (of 16-bit files at these, too). Grey, grey with alpha,
 /// palette, RGB and RGBA of 8 or 16 bits; of more bands those tagged red, green and blue, or the
-/// first three. 16 bits become 8 by the brightest value, or by the NBITS tag. Errors: those of
+/// first three. 16 bits become 8 by the NBITS tag, or by turnToBytes(). Errors: those of
 /// openRaster; InvalidArgument (not colours).
 absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gdal);
+
+/// Says what value of a picture with `brightest` is 255: that of all pictures beside it, so that
+/// one colour is the same in each.
+void turnToBytes(ColourFile& file, double most);
 
 }  // namespace eyrie::import

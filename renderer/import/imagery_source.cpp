@@ -174,14 +174,15 @@ public:
             notes_.push_back(fmt::format("{} has no CRS: taken to be in the terrain's", path));
         ASSIGN_OR_RETURN(const ColourPlace place, placeOf(file, grid_, gdal_));
         const fabric::Vec2 last(grid_.frame.columns - 1, grid_.frame.rows - 1);
-        notes_.insert(notes_.end(), file.notes.begin(), file.notes.end());
         names_ += (names_.empty() ? "" : ", ") + path;
         const bool overlaps =
             place.low.x < last.x && place.low.y < last.y && place.high.x > 0 && place.high.y > 0;
-        if (overlaps)
+        if (overlaps) {
             layers_.push_back({std::move(file), place, nullptr, {}});
-        else
-            notes_.push_back(fmt::format("{} lies beside the terrain; it is left out", path));
+            return absl::OkStatus();
+        }
+        notes_.insert(notes_.end(), file.notes.begin(), file.notes.end());
+        notes_.push_back(fmt::format("{} lies beside the terrain; it is left out", path));
         return absl::OkStatus();
     }
 
@@ -190,6 +191,9 @@ public:
             return absl::InvalidArgumentError(fmt::format(
                 "{}: no picture overlaps the terrain; check their coordinates and CRS (gdalinfo)",
                 names_));
+        RETURN_IF_ERROR(turnAllToBytes());
+        for (const Layer& layer : layers_)
+            notes_.insert(notes_.end(), layer.file.notes.begin(), layer.file.notes.end());
         std::reverse(layers_.begin(), layers_.end());
         std::stable_sort(layers_.begin(), layers_.end(), [](const Layer& a, const Layer& b) {
             return a.place.pixelPosts < b.place.pixelPosts * (1 - kEquallyFine);
@@ -217,6 +221,23 @@ public:
     }
 
 private:
+    /// By the brightest of all.
+    absl::Status turnAllToBytes() {
+        double most = 0;
+        const ColourFile* any = nullptr;
+        for (const Layer& layer : layers_)
+            if (layer.file.brightest) {
+                most = std::max(most, *layer.file.brightest);
+                any = &layer.file;
+            }
+        if (any != nullptr && !(most > 0))
+            return invalid(any->path, "holds no value above 0; is it the picture you mean?");
+        for (Layer& layer : layers_)
+            if (layer.file.brightest)
+                turnToBytes(layer.file, most);
+        return absl::OkStatus();
+    }
+
     /// Of texels no larger than the terrain, so that one has its middle there.
     int coarsestShift() const {
         const int cells = std::min(grid_.frame.columns, grid_.frame.rows) - 1;

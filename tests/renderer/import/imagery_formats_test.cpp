@@ -207,5 +207,38 @@ TEST_F(ImageryImport, CutOffPictureIsDataLossAndLeavesNothing) {
     EXPECT_THAT(folder_.files(), testing::Not(testing::Contains(HasSubstr("with.eyt"))));
 }
 
+/// One half of a terrain, of one value of 16 bits.
+void writeHalf(const std::string& path, bool isEastern, std::uint16_t value) {
+    GDALAllRegister();
+    const GDALDatasetUniquePtr file(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+        path.c_str(), 20, 40, 1, GDT_UInt16, nullptr));
+    std::array<double, 6> transform{
+        kWest - 50 + (isEastern ? 200 : 0), 10, 0, kSouth + 350, 0, -10};
+    file->SetGeoTransform(transform.data());
+    OGRSpatialReference crs;
+    crs.importFromEPSG(test::kUtm33);
+    file->SetSpatialRef(&crs);
+    file->GetRasterBand(1)->Fill(value);
+}
+
+TEST_F(ImageryImport, TurnsPicturesBesideEachOtherTo8BitsByTheBrightestOfAll) {
+    const std::string west = folder_.path("west.tif");
+    const std::string east = folder_.path("east.tif");
+    writeHalf(east, true, 4000);
+    for (const int value : {500, 0}) {
+        writeHalf(west, false, static_cast<std::uint16_t>(value));
+        const auto file = imported(test::slope(30, 30, 10), {west, east});
+        ASSERT_NE(file, nullptr);
+        const int dark = value * 255 / 4000;
+        expectColours(
+            *file, 10,
+            [&](double x, double) {
+                const auto grey = static_cast<std::uint8_t>(x < kWest + 150 ? dark : 255);
+                return Rgba{grey, grey, grey, 255};
+            },
+            4);
+    }
+}
+
 }  // namespace
 }  // namespace eyrie::import
