@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "cli/bench/flights.h"
+#include "cli/bound_text.h"
 #include "cli/log.h"
 #include "cli/output_reader.h"
 #include "cli/picture_bands.h"
@@ -90,9 +91,9 @@ absl::Status writeFlightVideo(const FlightVideo& video, const std::string& scene
     RETURN_IF_ERROR(file.commit());
     if (!video.quiet)
         tell(
-            fmt::format("{}: {} pictures, error at most {:.3g} of {:.3g} pixels asked, and what "
+            fmt::format("{}: {} pictures, error at most {} of {:.3g} pixels asked, and what "
                         "coding adds",
-                        video.out, frames.size(), worstPixels, request.tauPixels));
+                        video.out, frames.size(), boundText(worstPixels), request.tauPixels));
     return absl::OkStatus();
 }
 

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/bound_text.h"
 #include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/crs_notes.h"
@@ -169,15 +170,15 @@ void printFacts(const std::string& name, const Facts& facts) {
     fmt::print("  levels      {}\n", facts.levels);
     fmt::print("  crs         {}\n", crsName(facts.crs));
     fmt::print("  bytes       {}\n", facts.bytes);
-    fmt::print("  error       {:.3g} m at the coarsest, {:.3g} m at the finest\n",
-               facts.coarsestErrorMetres, facts.finestErrorMetres);
+    fmt::print("  error       {} m at the coarsest, {} m at the finest\n",
+               boundText(facts.coarsestErrorMetres), boundText(facts.finestErrorMetres));
     if (!facts.colourReachMetres.empty())
-        fmt::print("  colours     from within {:.3g} m at the coarsest\n",
-                   facts.colourReachMetres.front());
+        fmt::print("  colours     from within {} m at the coarsest\n",
+                   boundText(facts.colourReachMetres.front()));
     if (!facts.normalErrorDegrees.empty())
-        fmt::print("  normals     off by at most {:.3g} degrees, {:.3g} on average over a node\n",
-                   *std::ranges::max_element(facts.normalErrorDegrees),
-                   *std::ranges::max_element(facts.normalErrorMeanDegrees));
+        fmt::print("  normals     off by at most {} degrees, {} on average over a node\n",
+                   boundText(*std::ranges::max_element(facts.normalErrorDegrees)),
+                   boundText(*std::ranges::max_element(facts.normalErrorMeanDegrees)));
     if (facts.tunedLeafTriangles > 0)
         fmt::print("  leaves      of at most {} triangles, which was measured to be fastest\n",
                    facts.tunedLeafTriangles);

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/bound_text.h"
 #include "cli/commands.h"
 #include "cli/config_options.h"
 #include "cli/json_object.h"
@@ -94,7 +95,7 @@ void print(const fabric::PickedPoint& point, const std::string& object) {
     fmt::print("{}\n  at          {:.17g} {:.17g} {:.17g}\n", object, p.x, p.y, p.z);
     if (point.elevationMetres)
         fmt::print("  elevation   {:.10g} m\n", *point.elevationMetres);
-    fmt::print("  off by      {:.3g} m at most\n", point.errorMetres);
+    fmt::print("  off by      {} m at most\n", boundText(point.errorMetres));
     fmt::print("  distance    {:.10g} m; the source is met from {:.10g} m on{}\n",
                point.distanceMetres, point.nearestMetres,
                std::isinf(point.farthestMetres)

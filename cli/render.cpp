@@ -14,6 +14,7 @@
 
 #include "cli/all_pictures.h"
 #include "cli/bench/flights.h"
+#include "cli/bound_text.h"
 #include "cli/commands.h"
 #include "cli/config_options.h"
 #include "cli/drawing_options.h"
@@ -151,11 +152,11 @@ absl::Status finish(Outputs& outputs, const DrawnBands& drawn, const Options& op
     if (options.json)
         fmt::print("{}\n", statistics);
     else if (!options.pictures.quiet)
-        tell(fmt::format("{}: {} triangles, {:.1f} ms, error {:.3g} of {:.3g} pixels asked{}",
-                         options.out, drawn.statistics.triangles,
-                         drawn.statistics.milliseconds.total, drawn.statistics.tauAchievedPixels,
-                         drawn.statistics.tauAskedPixels,
-                         drawn.statistics.complete ? "" : ", incomplete"));
+        tell(fmt::format(
+            "{}: {} triangles, {:.1f} ms, error {} of {:.3g} pixels asked{}", options.out,
+            drawn.statistics.triangles, drawn.statistics.milliseconds.total,
+            boundText(drawn.statistics.tauAchievedPixels), drawn.statistics.tauAskedPixels,
+            drawn.statistics.complete ? "" : ", incomplete"));
     return absl::OkStatus();
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <limits>
+#include <random>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/bound_text.h"
 #include "cli/exit_status.h"
 #include "cli/json_object.h"
 #include "cli/values.h"
@@ -117,6 +120,23 @@ TEST(JsonObject, Nests) {
               R"({"b": {"min": [0, 1, 2], "max": [3, 4, 5.5]}, "o": {"n": 1}})");
     EXPECT_EQ(JsonObject().objects("l", {JsonObject(), JsonObject().count("n", 2)}).str(),
               R"({"l": [{}, {"n": 2}]})");
+}
+
+TEST(BoundText, IsNeverBelowTheBoundNorFarAboveIt) {
+    EXPECT_EQ(boundText(0.12341), "0.124");
+    EXPECT_EQ(boundText(0.1239), "0.124");
+    EXPECT_EQ(boundText(0.999), "0.999");
+    EXPECT_EQ(boundText(0.9991), "1");
+    EXPECT_EQ(boundText(0), "0");
+    EXPECT_EQ(boundText(std::numeric_limits<double>::infinity()), "inf");
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> magnitude(-12, 12);
+    for (int i = 0; i < 10000; ++i) {
+        const double bound = std::pow(10, magnitude(random));
+        const double told = std::stod(boundText(bound));
+        EXPECT_GE(told, bound);
+        EXPECT_LE(told, bound * 1.0101);
+    }
 }
 
 }  // namespace
