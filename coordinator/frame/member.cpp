@@ -189,7 +189,10 @@ absl::StatusOr<fabric::ProgramResult> Member::runProgram(const fabric::ChannelPr
                                                          std::chrono::milliseconds timeout,
                                                          const std::stop_token& stop) {
     RETURN_IF_ERROR(checkRevision(revision));
-    return renderer_->runProgram(program, Clock::now() + timeout, stop);
+    ASSIGN_OR_RETURN(fabric::ProgramResult result,
+                     renderer_->runProgram(program, Clock::now() + timeout, stop));
+    RETURN_IF_ERROR(checkRevision(revision));  // another may have been opened meanwhile, and drawn
+    return result;
 }
 
 absl::Status Member::checkRevision(std::uint64_t revision) const {

@@ -90,7 +90,7 @@ public:
     std::shared_ptr<void> occupy();
 
     /// ChannelRenderer::runProgram, beside the jobs and on the caller's thread; Aborted when
-    /// another scene is open.
+    /// another scene is open, or is opened meanwhile.
     absl::StatusOr<fabric::ProgramResult> runProgram(const fabric::ChannelProgram& program,
                                                      std::uint64_t revision,
                                                      std::chrono::milliseconds timeout,
