@@ -258,5 +258,20 @@ TEST_P(ProgramDrawingTest, AFrameDuringWhichAnotherSceneIsOpenedIsDrawnOnceMore)
         EXPECT_GT(one->programs + one->channels, 1) << "its part is of one scene or the other";
 }
 
+TEST_P(ProgramDrawingTest, ARendererThatLeavesFinishesItsProgram) {
+    const auto renderers = exchanging(2);
+    renderers[1]->holdAnswers(true);
+    auto frame = begun(renderers);
+    const std::string id = registry_.entries()[1].id;
+    ASSERT_TRUE(registry_.drain(id, Registry::Clock::now()).ok());
+    EXPECT_EQ(registry_.entries().size(), 2U) << "it has left amid its program";
+    renderers[1]->holdAnswers(false);
+    const absl::StatusOr<RenderedFrame> drawn = frame.get();
+    ASSERT_TRUE(drawn.ok()) << drawn.status();
+    EXPECT_TRUE(drawn->image == layers_->whole(kWidth, kHeight));
+    for (const auto& one : renderers) EXPECT_EQ(one->channels, 0) << "drawn without programs";
+    EXPECT_TRUE(eventually([&] { return registry_.entries().size() == 1; }));
+}
+
 }  // namespace
 }  // namespace eyrie::coordinator
