@@ -41,10 +41,10 @@ absl::Status Exchange::start(fabric::ChannelProgram program, Clock::time_point d
     Running& running = running_.emplace_back();
     running.thread = std::thread([this, &running, program = std::move(program), deadline,
                                   stop = std::move(stop), done = std::move(done)] {
-        absl::StatusOr<fabric::ProgramResult> result =
+        absl::StatusOr<ProgramAnswer> answer =
             runProgram(program, {thread_, frameData_, mailbox_, peers_}, deadline, stop);
         forget(keysOf(program));
-        done(std::move(result));
+        done(std::move(answer));
         const std::lock_guard ending(mutex_);
         running.ended = true;
     });

@@ -24,7 +24,7 @@ namespace eyrie::service {
 class Exchange {
 public:
     using Clock = std::chrono::steady_clock;
-    using Done = std::function<void(absl::StatusOr<fabric::ProgramResult>)>;
+    using Done = std::function<void(absl::StatusOr<ProgramAnswer>)>;
 
     /// `thread` and `frameData` outlive the exchange.
     /// `security` is how this renderer shows itself to the others.

@@ -19,14 +19,20 @@ std::int64_t nanoseconds(ChannelStory::Clock::time_point time) {
     return std::chrono::nanoseconds(time.time_since_epoch()).count();
 }
 
+v1::RendererMemory messageOf(const DrawerMemory& memory) {
+    v1::RendererMemory message;
+    message.set_device_bytes(memory.deviceBytes);
+    message.set_host_bytes(memory.hostBytes);
+    return message;
+}
+
 void tell(const ChannelStory& story, v1::ChannelHeader& header) {
     v1::ChannelTimes& times = *header.mutable_times();
     times.set_received(nanoseconds(story.received));
     times.set_begun(nanoseconds(story.begun));
     times.set_drawn(nanoseconds(story.drawn));
     times.set_sent(nanoseconds(ChannelStory::Clock::now()));
-    header.mutable_memory()->set_device_bytes(story.memory.deviceBytes);
-    header.mutable_memory()->set_host_bytes(story.memory.hostBytes);
+    *header.mutable_memory() = messageOf(story.memory);
 }
 
 class MemoryReply final : public MessageSource<v1::RenderChannelResponse> {
@@ -140,8 +146,8 @@ private:
 
 class ProgramReply final : public MessageSource<v1::RunProgramResponse> {
 public:
-    ProgramReply(fabric::ProgramResult result, wire::PixelEncoding encoding)
-        : result_(std::move(result)), encoding_(encoding) {}
+    ProgramReply(ProgramAnswer answer, wire::PixelEncoding encoding)
+        : result_(std::move(answer.result)), memory_(answer.memory), encoding_(encoding) {}
 
     bool isDone() const override { return isDone_; }
 
@@ -153,6 +159,8 @@ public:
             return begin(result_.pictures[picture_++], *message.mutable_header());
         for (const fabric::FrameStatistics& draw : result_.draws)
             *message.mutable_statistics()->add_draws() = wire::toMessage(draw);
+        if (memory_)
+            *message.mutable_statistics()->mutable_memory() = messageOf(*memory_);
         message.mutable_statistics();  // the end, even where nothing was drawn
         isDone_ = true;
     }
@@ -165,6 +173,7 @@ private:
     }
 
     const fabric::ProgramResult result_;
+    const std::optional<DrawerMemory> memory_;
     const wire::PixelEncoding encoding_;
     std::size_t picture_ = 0;  ///< the next one
     std::optional<wire::PictureWriter> pixels_;
@@ -191,9 +200,9 @@ std::unique_ptr<MessageSource<v1::RenderChannelResponse>> jpegReply(fabric::Chan
     return std::make_unique<JpegReply>(std::move(result), task, background, story);
 }
 
-std::unique_ptr<MessageSource<v1::RunProgramResponse>> programReply(fabric::ProgramResult result,
+std::unique_ptr<MessageSource<v1::RunProgramResponse>> programReply(ProgramAnswer answer,
                                                                     wire::PixelEncoding encoding) {
-    return std::make_unique<ProgramReply>(std::move(result), encoding);
+    return std::make_unique<ProgramReply>(std::move(answer), encoding);
 }
 
 }  // namespace eyrie::service

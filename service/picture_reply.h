@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "eyrie/v1/render_service.pb.h"
-#include "fabric/channel_program.h"
 #include "service/channel_drawer.h"
+#include "service/program_run.h"
 #include "service/reply_stream.h"
 #include "wire/picture_bytes.h"
 
@@ -41,7 +41,7 @@ std::unique_ptr<MessageSource<v1::RenderChannelResponse>> jpegReply(fabric::Chan
                                                                     const ChannelStory& story);
 
 /// The answer to RunProgram: each picture likewise, then the statistics.
-std::unique_ptr<MessageSource<v1::RunProgramResponse>> programReply(fabric::ProgramResult result,
+std::unique_ptr<MessageSource<v1::RunProgramResponse>> programReply(ProgramAnswer answer,
                                                                     wire::PixelEncoding encoding);
 
 }  // namespace eyrie::service

@@ -17,10 +17,24 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// What came of a draw, and what the drawer held after it.
+struct Drawn {
+    fabric::ChannelResult result;
+    DrawerMemory memory;
+};
+
+absl::StatusOr<Drawn> drawWith(ChannelDrawer& drawer, const fabric::FrameData& frameData,
+                               const fabric::ChannelTask& task, const std::stop_token& stop) {
+    if (stop.stop_requested())
+        return absl::CancelledError("nobody waits for this channel any more");
+    ASSIGN_OR_RETURN(fabric::ChannelResult result, drawer.render(frameData, task, {.stop = stop}));
+    return Drawn{std::move(result), drawer.memory()};
+}
+
 /// One draw on the GL thread, and who waits for it. Shared by both: the wait may end first.
 class Draw {
 public:
-    void done(absl::StatusOr<fabric::ChannelResult> result) {
+    void done(absl::StatusOr<Drawn> result) {
         {
             const std::lock_guard lock(mutex_);
             result_ = std::move(result);
@@ -28,8 +42,7 @@ public:
         changed_.notify_all();
     }
 
-    absl::StatusOr<fabric::ChannelResult> await(Clock::time_point deadline,
-                                                const std::stop_token& stop) {
+    absl::StatusOr<Drawn> await(Clock::time_point deadline, const std::stop_token& stop) {
         std::unique_lock lock(mutex_);
         const bool isDone =
             changed_.wait_until(lock, stop, deadline, [this] { return result_.has_value(); });
@@ -43,7 +56,7 @@ public:
 private:
     std::mutex mutex_;  ///< guards result_
     std::condition_variable_any changed_;
-    std::optional<absl::StatusOr<fabric::ChannelResult>> result_;
+    std::optional<absl::StatusOr<Drawn>> result_;
 };
 
 class Run {
@@ -56,11 +69,11 @@ public:
           stop_(stop),
           buffer_(program.area, program.background, program.hasDepth) {}
 
-    absl::StatusOr<fabric::ProgramResult> all() {
+    absl::StatusOr<ProgramAnswer> all() {
         for (std::size_t i = 0; i < program_.stages.size(); ++i)
             RETURN_IF_ERROR(
                 fabric::withContext(one(program_.stages[i]), fmt::format("stage {}", i)));
-        return std::move(result_);
+        return std::move(answer_);
     }
 
 private:
@@ -82,13 +95,12 @@ private:
         const auto draw = std::make_shared<Draw>();
         RETURN_IF_ERROR(
             tools_.thread.post([draw, frameData, task, stop = stop_](ChannelDrawer& drawer) {
-                draw->done(stop.stop_requested()
-                               ? absl::CancelledError("nobody waits for this channel any more")
-                               : drawer.render(frameData, task, {.stop = stop}));
+                draw->done(drawWith(drawer, frameData, task, stop));
             }));
-        ASSIGN_OR_RETURN(fabric::ChannelResult drawn, draw->await(deadline_, stop_));
-        result_.draws.push_back(drawn.statistics);
-        buffer_.put(std::move(drawn.image), task.pixelViewport,
+        ASSIGN_OR_RETURN(Drawn drawn, draw->await(deadline_, stop_));
+        answer_.result.draws.push_back(drawn.result.statistics);
+        answer_.memory = drawn.memory;
+        buffer_.put(std::move(drawn.result.image), task.pixelViewport,
                     program_.hasDepth && task.wantsDepth ? fabric::Merge::DepthBehind
                                                          : fabric::Merge::Paste);
         return absl::OkStatus();
@@ -98,7 +110,7 @@ private:
         fabric::Image image = buffer_.part(output.area, output.withDepth);
         if (!output.to.empty())
             return tools_.peers.send(output.to, key(output.frame), image, deadline_, stop_);
-        result_.pictures.push_back({output.frame, std::move(image)});
+        answer_.result.pictures.push_back({output.frame, std::move(image)});
         return absl::OkStatus();
     }
 
@@ -111,15 +123,15 @@ private:
     const Clock::time_point deadline_;
     const std::stop_token stop_;
     fabric::ChannelBuffer buffer_;
-    fabric::ProgramResult result_;
+    ProgramAnswer answer_;
 };
 
 }  // namespace
 
-absl::StatusOr<fabric::ProgramResult> runProgram(const fabric::ChannelProgram& program,
-                                                 const ProgramTools& tools,
-                                                 std::chrono::steady_clock::time_point deadline,
-                                                 const std::stop_token& stop) {
+absl::StatusOr<ProgramAnswer> runProgram(const fabric::ChannelProgram& program,
+                                         const ProgramTools& tools,
+                                         std::chrono::steady_clock::time_point deadline,
+                                         const std::stop_token& stop) {
     return Run(program, tools, deadline, stop).all();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <stop_token>
 
 #include <absl/status/statusor.h>
@@ -22,13 +23,18 @@ struct ProgramTools {
     Peers& peers;
 };
 
+struct ProgramAnswer {
+    fabric::ProgramResult result;
+    std::optional<DrawerMemory> memory;  ///< after the last draw; empty where there is none
+};
+
 /// Carries a program out, whose inputs have been announced: on the calling thread, which waits for
 /// the GL thread, for pictures and for peers. Ends soon after `stop`, with Cancelled.
 ///
 /// Errors: what drawing, Mailbox::await or Peers::send say, with the stage's number.
-absl::StatusOr<fabric::ProgramResult> runProgram(const fabric::ChannelProgram& program,
-                                                 const ProgramTools& tools,
-                                                 std::chrono::steady_clock::time_point deadline,
-                                                 const std::stop_token& stop);
+absl::StatusOr<ProgramAnswer> runProgram(const fabric::ChannelProgram& program,
+                                         const ProgramTools& tools,
+                                         std::chrono::steady_clock::time_point deadline,
+                                         const std::stop_token& stop);
 
 }  // namespace eyrie::service

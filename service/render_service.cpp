@@ -199,11 +199,11 @@ absl::Status RenderService::startProgram(const v1::RunProgramRequest& request,
     ASSIGN_OR_RETURN(fabric::ChannelProgram program, wire::fromMessage(request.program()));
     ASSIGN_OR_RETURN(const wire::PixelEncoding encoding, wire::fromMessage(request.encoding()));
     return exchange_.start(std::move(program), deadline, reply.cancellation(),
-                           [encoding, &reply](absl::StatusOr<fabric::ProgramResult> result) {
-                               if (result.ok())
-                                   reply.send(programReply(*std::move(result), encoding));
+                           [encoding, &reply](absl::StatusOr<ProgramAnswer> answer) {
+                               if (answer.ok())
+                                   reply.send(programReply(*std::move(answer), encoding));
                                else
-                                   reply.fail(result.status());
+                                   reply.fail(answer.status());
                            });
 }
 

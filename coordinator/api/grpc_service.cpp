@@ -2,6 +2,7 @@
 #include "coordinator/api/grpc_service.h"
 
 #include <mutex>
+#include <random>
 #include <utility>
 
 #include <fmt/format.h>
@@ -84,8 +85,7 @@ public:
         grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
         absl::Status status = wire::admit(security_, *context);
         if (status.ok())
-            status =
-                registry_.heartbeat(request->renderer_id().substr(0, 64), Registry::Clock::now());
+            status = heartbeat(request->renderer_id());
         if (status.ok() && telemetry_)
             telemetry_->metrics.turnedAwayByRenderer(refusalsOf(request->refused()));
         reactor->Finish(wire::toGrpc(status));
@@ -98,7 +98,7 @@ public:
         grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
         absl::Status status = wire::admit(security_, *context);
         if (status.ok())
-            status = registry_.drain(request->renderer_id().substr(0, 64), Registry::Clock::now());
+            status = drain(request->renderer_id());
         reactor->Finish(wire::toGrpc(status));
         return reactor;
     }
@@ -126,15 +126,36 @@ private:
             spdlog::info("{} is of version {}, the coordinator of {}: they work together", id,
                          stream::sanitised(request.software_version().substr(0, 64)),
                          fabric::kVersion);
-        response.set_renderer_id(id);
+        response.set_renderer_id(id + run_);
         response.set_heartbeat_milliseconds(
             static_cast<std::int32_t>(registry_.options().heartbeatInterval.count()));
         return absl::OkStatus();
     }
 
+    absl::Status heartbeat(const std::string& rendererId) {
+        ASSIGN_OR_RETURN(const std::string id, registeredId(rendererId));
+        return registry_.heartbeat(id, Registry::Clock::now());
+    }
+
+    absl::Status drain(const std::string& rendererId) {
+        ASSIGN_OR_RETURN(const std::string id, registeredId(rendererId));
+        return registry_.drain(id, Registry::Clock::now());
+    }
+
+    /// The registry's; NotFound when an earlier run gave `rendererId` out.
+    absl::StatusOr<std::string> registeredId(const std::string& rendererId) const {
+        const std::string id = rendererId.substr(0, 64);
+        if (!id.ends_with(run_))
+            return absl::NotFoundError(
+                fmt::format("'{}' is of another run of the coordinator; register again", id));
+        return id.substr(0, id.size() - run_.size());
+    }
+
     Registry& registry_;
     const wire::Security security_;
     const observe::SharedTelemetry telemetry_;
+    /// Ends the ids that renderers are given: the registry's begin anew with each process.
+    const std::string run_ = fmt::format("@{:08x}", std::random_device()());
 };
 
 }  // namespace

@@ -33,6 +33,10 @@ std::optional<observe::ClockMap::Offset> ReportedRenderer::note(const observe::E
     return clock_.note(exchange);
 }
 
+void ReportedRenderer::holds(const v1::RendererMemory& memory) const {
+    telemetry_->metrics.rendererHolds(name_, memory.device_bytes(), memory.host_bytes());
+}
+
 ChannelReport::ChannelReport(ReportedRenderer& renderer, std::uint64_t frame)
     : renderer_(renderer), frame_(frame), asked_(Clock::now()) {}
 
@@ -43,8 +47,7 @@ void ChannelReport::headerCame(const v1::ChannelHeader& header) {
     observe::Metrics& metrics = renderer_.telemetry()->metrics;
     metrics.pictureCame(header.is_in_memory());
     if (header.has_memory())
-        metrics.rendererHolds(renderer_.name(), header.memory().device_bytes(),
-                              header.memory().host_bytes());
+        renderer_.holds(header.memory());
     const v1::ChannelTimes& times = header.times();
     if (!header.has_times() || !isInOrder(times))
         return;
@@ -92,6 +95,22 @@ void ChannelReport::ended(const absl::Status& status) {
         telemetry->traces.add({"coordinator", thread, "receive", frame_, *header_, now});
     }
     telemetry->metrics.bytes(observe::Peer::Renderer, observe::Direction::In, bytes_);
+}
+
+void ProgramReport::pictureCame() const {
+    if (renderer_.telemetry() != nullptr)
+        renderer_.telemetry()->metrics.pictureCame(false);
+}
+
+void ProgramReport::statisticsCame(const v1::ProgramStatistics& statistics) const {
+    if (renderer_.telemetry() != nullptr && statistics.has_memory())
+        renderer_.holds(statistics.memory());
+}
+
+void ProgramReport::ended() const {
+    if (renderer_.telemetry() != nullptr)
+        renderer_.telemetry()->metrics.bytes(observe::Peer::Renderer, observe::Direction::In,
+                                             bytes_);
 }
 
 }  // namespace eyrie::coordinator

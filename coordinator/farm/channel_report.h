@@ -14,7 +14,9 @@
 
 namespace eyrie::v1 {
 class ChannelHeader;
-}
+class ProgramStatistics;
+class RendererMemory;
+}  // namespace eyrie::v1
 
 namespace eyrie::coordinator {
 
@@ -27,6 +29,8 @@ public:
     const std::string& name() const { return name_; }
     const observe::SharedTelemetry& telemetry() const { return telemetry_; }
     std::optional<observe::ClockMap::Offset> note(const observe::Exchange& exchange);
+    /// Precondition: there is telemetry.
+    void holds(const v1::RendererMemory& memory) const;
 
 private:
     const std::string name_;
@@ -65,6 +69,23 @@ private:
     const std::uint64_t frame_;
     const observe::Clock::time_point asked_;
     std::optional<observe::Clock::time_point> header_;
+    std::size_t bytes_ = 0;
+};
+
+/// Tells of one program that a renderer carries out: what comes of it, and what the renderer holds.
+class ProgramReport {
+public:
+    /// `renderer` outlives this.
+    explicit ProgramReport(const ReportedRenderer& renderer) : renderer_(renderer) {}
+
+    void pictureCame() const;
+    void chunkCame(std::size_t bytes) { bytes_ += bytes; }
+    void statisticsCame(const v1::ProgramStatistics& statistics) const;
+    /// The call has ended.
+    void ended() const;
+
+private:
+    const ReportedRenderer& renderer_;
     std::size_t bytes_ = 0;
 };
 

@@ -185,15 +185,23 @@ public:
             wire::toMessage(wire::encodingFor(address_, answersWithDepth(program))));
         Calls::Call call(calls_, deadline);
         const std::stop_callback cancel(stop, [&] { call.context()->TryCancel(); });
+        ProgramReport report(reported_);
         const auto reader = stub_->RunProgram(call.context(), request);
         ProgramAssembly assembly(program);
-        return receive(call, *reader, assembly,
-                       [&](const v1::RunProgramResponse& part) -> absl::Status {
-                           if (part.has_statistics())
-                               return assembly.takeStatistics(part.statistics());
-                           return part.has_header() ? assembly.takeHeader(part.header())
-                                                    : assembly.takeChunk(part.chunk());
-                       });
+        auto result = receive(call, *reader, assembly, [&](const v1::RunProgramResponse& part) {
+            if (part.has_statistics()) {
+                report.statisticsCame(part.statistics());
+                return assembly.takeStatistics(part.statistics());
+            }
+            if (part.has_header()) {
+                report.pictureCame();
+                return assembly.takeHeader(part.header());
+            }
+            report.chunkCame(part.chunk().size());
+            return assembly.takeChunk(part.chunk());
+        });
+        report.ended();
+        return result;
     }
 
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request,

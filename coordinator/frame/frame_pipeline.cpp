@@ -44,7 +44,7 @@ FramePipeline::FramePipeline(Registry& registry, FramePipelineOptions options)
           options_.configuration, options_.layout, [this] { listeners_.notify(); },
           options_.keeping),
       programs_(
-          {options_.patience, options_.callTimeout, [this] { gate_.look(); }, options_.telemetry},
+          {options_.patience, options_.callTimeouts, [this] { gate_.look(); }, options_.telemetry},
           crew_),
       crew_(registry, {.patience = options_.patience}, [this] { listeners_.notify(); }) {}
 
@@ -144,7 +144,7 @@ absl::StatusOr<DrawnFrame> FramePipeline::drawCentrally(const PlannedFrame& fram
                                                         const std::function<void()>& handedOut) {
     Dispatch::Plan plan =
         dispatchOf(frame, frame.plan, frame.takers, programs_.patienceWith(frame.kind));
-    plan.callTimeout = options_.callTimeout;
+    plan.callTimeout = options_.callTimeouts.of(frame.request.completeness);
     plan.handedOut = handedOut;
     plan.freed = [this] { gate_.look(); };
     plan.telemetry = options_.telemetry;

@@ -9,6 +9,7 @@
 #include "coordinator/config/configuration.h"
 #include "coordinator/farm/listeners.h"
 #include "coordinator/farm/registry.h"
+#include "coordinator/frame/call_timeouts.h"
 #include "coordinator/frame/composed_frame.h"
 #include "coordinator/frame/configuration_access.h"
 #include "coordinator/frame/crew.h"
@@ -31,9 +32,9 @@ struct FramePipelineOptions {
     /// The command that starts a renderer for this coordinator, for people to read.
     std::string howToJoin = "eyrie renderer --coordinator HOST:PORT";
     PatienceOptions patience;
-    std::chrono::milliseconds callTimeout{30'000};  ///< a channel that takes longer is given up
-    std::chrono::milliseconds pickTimeout{5'000};   ///< a pick that takes longer goes elsewhere
-    observe::SharedTelemetry telemetry = nullptr;   ///< is told of every frame
+    CallTimeouts callTimeouts;
+    std::chrono::milliseconds pickTimeout{5'000};  ///< a pick that takes longer goes elsewhere
+    observe::SharedTelemetry telemetry = nullptr;  ///< is told of every frame
 };
 
 /// Makes frames: by a configuration, each is cut into draws for the renderers that are ready, these

@@ -98,9 +98,12 @@ void Member::work() {
 
 void Member::leave(std::function<void()> left) {
     post([this, left = std::move(left)](Hold& hold) {
+        hold.release();  // programs may yet have to be prepared
         {
             std::unique_lock lock(mutex_);
-            changed_.wait(lock, [this] { return retired_ || working_ == 1; });
+            changed_.wait(lock, [this] {
+                return retired_ || (working_ == 1 && jobs_.empty() && occupants_ == 0);
+            });
         }
         hold.end();
         left();
@@ -180,8 +183,15 @@ std::future<absl::Status> Member::prepare(const fabric::FrameData& frameData,
 }
 
 std::shared_ptr<void> Member::occupy() {
-    ++occupants_;
-    return {nullptr, [this](void*) { --occupants_; }};
+    const auto add = [this](int occupants) {
+        {
+            const std::lock_guard lock(mutex_);
+            occupants_ += occupants;
+        }
+        changed_.notify_all();
+    };
+    add(1);
+    return {nullptr, [add](void*) { add(-1); }};
 }
 
 absl::StatusOr<fabric::ProgramResult> Member::runProgram(const fabric::ChannelProgram& program,
@@ -189,7 +199,10 @@ absl::StatusOr<fabric::ProgramResult> Member::runProgram(const fabric::ChannelPr
                                                          std::chrono::milliseconds timeout,
                                                          const std::stop_token& stop) {
     RETURN_IF_ERROR(checkRevision(revision));
-    return renderer_->runProgram(program, Clock::now() + timeout, stop);
+    ASSIGN_OR_RETURN(fabric::ProgramResult result,
+                     renderer_->runProgram(program, Clock::now() + timeout, stop));
+    RETURN_IF_ERROR(checkRevision(revision));  // another may have been opened meanwhile, and drawn
+    return result;
 }
 
 absl::Status Member::checkRevision(std::uint64_t revision) const {

@@ -86,11 +86,11 @@ public:
     std::future<absl::Status> prepare(const fabric::FrameData& frameData, std::uint64_t revision,
                                       std::chrono::milliseconds timeout);
 
-    /// It is not idle until what is returned is gone, which this outlives.
+    /// It is not idle, and does not leave, until what is returned is gone, which this outlives.
     std::shared_ptr<void> occupy();
 
     /// ChannelRenderer::runProgram, beside the jobs and on the caller's thread; Aborted when
-    /// another scene is open.
+    /// another scene is open, or is opened meanwhile.
     absl::StatusOr<fabric::ProgramResult> runProgram(const fabric::ChannelProgram& program,
                                                      std::uint64_t revision,
                                                      std::chrono::milliseconds timeout,
@@ -101,7 +101,7 @@ public:
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request, std::uint64_t revision,
                                         std::chrono::milliseconds timeout);
 
-    /// Calls `left` when the jobs given before are done.
+    /// Calls `left` when all that it was given is done, and nobody occupies it.
     void leave(std::function<void()> left);
 
     /// Ends: jobs in progress and in the queue fail soon, and no others are taken. Does not wait.
@@ -146,7 +146,6 @@ private:
     std::uint64_t sentVersion_ = 0;               ///< of the frame data; the holder's own
     std::atomic<std::uint64_t> openRevision_{0};  ///< of the scene it has open; 0: none
     std::atomic<int> late_{0};
-    std::atomic<int> occupants_{0};
     std::atomic<int> ended_{0};
     mutable std::mutex mutex_;  ///< guards what follows
     Patience patience_;
@@ -154,6 +153,7 @@ private:
     std::deque<Job> jobs_;
     bool isHeld_ = false;  ///< by a job
     int working_ = 0;      ///< threads that do a job
+    int occupants_ = 0;
     bool retired_ = false;
     std::array<std::thread, kThreads> threads_;
 };

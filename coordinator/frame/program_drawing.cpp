@@ -94,7 +94,7 @@ absl::StatusOr<DrawnFrame> ProgramDrawing::tryToDraw(const PlannedFrame& frame,
     });
     Dispatch::Plan others =
         dispatchOf(frame, programs.others, programs.takers, patienceWith(frame.kind));
-    others.callTimeout = options_.callTimeout;
+    others.callTimeout = options_.callTimeouts.of(frame.request.completeness);
     others.freed = options_.freed;
     others.telemetry = options_.telemetry;
     auto drawn = std::make_shared<Dispatch>(std::move(others))->run(crew_);

@@ -9,6 +9,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "coordinator/frame/call_timeouts.h"
 #include "coordinator/frame/composed_frame.h"
 #include "coordinator/frame/crew.h"
 #include "coordinator/frame/patience.h"
@@ -25,7 +26,7 @@ public:
 
     struct Options {
         PatienceOptions patience;
-        std::chrono::milliseconds callTimeout{};       ///< of what is drawn beside the programs
+        CallTimeouts callTimeouts;                     ///< of what is drawn beside the programs
         std::function<void()> freed;                   ///< Dispatch::Plan::freed
         observe::SharedTelemetry telemetry = nullptr;  ///< is told how long it takes
     };

@@ -164,5 +164,40 @@ TEST_P(FrameFaults, AFrameThatNobodyWantsEndsAndCostsTheNextNothing) {
     EXPECT_EQ(statusOf(0).condition, RendererCondition::Ready);
 }
 
+/// An interactive channel that takes 200 ms is given up.
+class SlowChannels : public FramePipelineTest {
+protected:
+    SlowChannels() : FramePipelineTest(quickToGiveUp()) {}
+
+    static FramePipelineOptions quickToGiveUp() {
+        FramePipelineOptions options = FramePipelineTest::options("2D", std::chrono::seconds(20));
+        options.callTimeouts.interactive = milliseconds(200);
+        return options;
+    }
+    absl::Status drawnIn(milliseconds time, fabric::Completeness completeness) {
+        const auto renderers = openWith(2);
+        for (const auto& renderer : renderers) renderer->hang(true);
+        const std::jthread later([&] {
+            std::this_thread::sleep_for(time);
+            for (const auto& renderer : renderers) renderer->hang(false);
+        });
+        FrameRequest asked = request();
+        asked.completeness = completeness;
+        return pipeline_.renderFrame(asked).status();
+    }
+};
+
+TEST_F(SlowChannels, OfACompletePictureAreWaitedFor) {
+    const absl::Status status = drawnIn(milliseconds(500), fabric::Completeness::Complete);
+    EXPECT_TRUE(status.ok()) << status;
+    EXPECT_TRUE(isAlive(0) && isAlive(1));
+}
+
+TEST_F(SlowChannels, OfAnInteractiveOneAreGivenUp) {
+    const absl::Status status = drawnIn(milliseconds(500), fabric::Completeness::Interactive);
+    EXPECT_TRUE(absl::IsDeadlineExceeded(status) || absl::IsUnavailable(status)) << status;
+    EXPECT_FALSE(isAlive(0) || isAlive(1));
+}
+
 }  // namespace
 }  // namespace eyrie::coordinator

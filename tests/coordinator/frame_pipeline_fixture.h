@@ -33,7 +33,7 @@ protected:
         FramePipelineOptions options;
         options.layout = layout;
         options.patience = {patience, patience, 3};
-        options.callTimeout = std::chrono::seconds(60);
+        options.callTimeouts.interactive = std::chrono::seconds(60);
         return options;
     }
     static fabric::Scene sceneNamed(const std::string& name) {

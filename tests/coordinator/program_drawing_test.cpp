@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <future>
 #include <map>
 #include <mutex>
 #include <set>
@@ -50,6 +51,7 @@ public:
         : address_(std::move(address)), scene_(std::move(scene)), post_(post) {}
 
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene&, Clock::time_point) override {
+        ++opened;
         return fabric::SceneInfo{{{0, 0, 0}, {1, 1, 1}}, 30, 100, {}, {}};
     }
     absl::Status setFrameData(const fabric::FrameData& frameData, Clock::time_point) override {
@@ -79,13 +81,21 @@ public:
         fabric::ChannelBuffer buffer(program.area, program.background, program.hasDepth);
         for (const fabric::ProgramStage& stage : program.stages)
             RETURN_IF_ERROR(carryOut(stage, program, deadline, stop, buffer, result));
+        std::unique_lock lock(mutex_);
+        changed_.wait_until(lock, stop, deadline, [this] { return !holdsAnswers_ || cancelled_; });
+        if (cancelled_ || stop.stop_requested())
+            return absl::CancelledError("cancelled");
         return result;
     }
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest&, Clock::time_point) override {
         return fabric::Picked();
     }
-    void cancel() override {}
+    void cancel() override { set(cancelled_, true); }
 
+    /// Those of programs do not arrive before the end of that.
+    void holdAnswers(bool holds) { set(holdsAnswers_, holds); }
+
+    std::atomic<int> opened{0};    ///< scenes
     std::atomic<int> channels{0};  ///< drawn one by one
     std::atomic<int> programs{0};  ///< begun
     std::atomic<bool> fails{false};
@@ -126,11 +136,22 @@ private:
         return versions_.contains(version);
     }
 
+    void set(bool& variable, bool value) {
+        {
+            const std::lock_guard lock(mutex_);
+            variable = value;
+        }
+        changed_.notify_all();
+    }
+
     const std::string address_;
     const std::shared_ptr<const LayeredScene> scene_;
     Post& post_;
     mutable std::mutex mutex_;          ///< guards what follows
     std::set<std::uint64_t> versions_;  ///< of the frame data that have come
+    std::condition_variable_any changed_;
+    bool holdsAnswers_ = false;
+    bool cancelled_ = false;
 };
 
 class ProgramDrawingTest : public FramePipelineTest {
@@ -156,6 +177,17 @@ protected:
         }));
         for (const auto& one : renderers) one->programs = one->channels = 0;
         return renderers;
+    }
+    /// A frame for which every renderer has begun its program.
+    std::future<absl::StatusOr<RenderedFrame>> begun(
+        const std::vector<std::shared_ptr<ExchangingRenderer>>& renderers) {
+        auto frame =
+            std::async(std::launch::async, [this] { return pipeline_.renderFrame(request()); });
+        EXPECT_TRUE(eventually([&] {
+            return std::ranges::all_of(renderers,
+                                       [](const auto& one) { return one->programs == 1; });
+        }));
+        return frame;
     }
 
     Post post_;
@@ -211,6 +243,34 @@ TEST_P(ProgramDrawingTest, WhereAProgramFailsTheFrameIsPutTogetherHereAndProgram
         expectWholePicture();
         return renderers[1]->programs > tried;
     })) << "never tried again";
+}
+
+TEST_P(ProgramDrawingTest, AFrameDuringWhichAnotherSceneIsOpenedIsDrawnOnceMore) {
+    const auto renderers = exchanging(2);
+    renderers[0]->holdAnswers(true);
+    auto frame = begun(renderers);
+    const int opened = renderers[0]->opened;
+    pipeline_.setScene(sceneNamed("second"));
+    EXPECT_TRUE(eventually([&] { return renderers[0]->opened > opened; }));
+    renderers[0]->holdAnswers(false);
+    EXPECT_TRUE(frame.get().ok());
+    for (const auto& one : renderers)
+        EXPECT_GT(one->programs + one->channels, 1) << "its part is of one scene or the other";
+}
+
+TEST_P(ProgramDrawingTest, ARendererThatLeavesFinishesItsProgram) {
+    const auto renderers = exchanging(2);
+    renderers[1]->holdAnswers(true);
+    auto frame = begun(renderers);
+    const std::string id = registry_.entries()[1].id;
+    ASSERT_TRUE(registry_.drain(id, Registry::Clock::now()).ok());
+    EXPECT_EQ(registry_.entries().size(), 2U) << "it has left amid its program";
+    renderers[1]->holdAnswers(false);
+    const absl::StatusOr<RenderedFrame> drawn = frame.get();
+    ASSERT_TRUE(drawn.ok()) << drawn.status();
+    EXPECT_TRUE(drawn->image == layers_->whole(kWidth, kHeight));
+    for (const auto& one : renderers) EXPECT_EQ(one->channels, 0) << "drawn without programs";
+    EXPECT_TRUE(eventually([&] { return registry_.entries().size() == 1; }));
 }
 
 }  // namespace

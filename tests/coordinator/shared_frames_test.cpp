@@ -89,7 +89,7 @@ protected:
         FramePipelineOptions options;
         options.configuration = std::move(configuration);
         options.patience = {patience, patience, 3};
-        options.callTimeout = seconds(60);
+        options.callTimeouts.interactive = seconds(60);
         pipeline_ = std::make_unique<FramePipeline>(registry_, std::move(options));
         fabric::Scene scene;
         scene.background = LayeredScene::kBackground;

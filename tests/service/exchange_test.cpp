@@ -13,6 +13,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include "coordinator/farm/grpc_renderer.h"
+#include "coordinator/observe/telemetry.h"
 #include "eyrie/v1/render_service.grpc.pb.h"
 #include "fabric/depth_merge.h"
 #include "fake_drawer.h"
@@ -31,6 +32,7 @@ using fabric::ChannelProgram;
 using fabric::Merge;
 using fabric::PixelViewport;
 using testing::HasSubstr;
+using testing::Not;
 using Answer = absl::StatusOr<fabric::ProgramResult>;
 
 constexpr PixelViewport kWhole{3, 2, 61, 24};
@@ -218,6 +220,20 @@ TEST_F(ExchangeTest, DirectSendAmongThreeIsTheCentralMergeToTheBit) {
     EXPECT_TRUE(assembled(answers) == centrallyMerged());
     for (const Answer& answer : answers)
         EXPECT_EQ(answer.value_or(fabric::ProgramResult()).draws.size(), 1U);
+}
+
+TEST_F(ExchangeTest, WhatComesOfAProgramIsCounted) {
+    addNodes(1);
+    const auto telemetry = std::make_shared<observe::Telemetry>();
+    const auto counted = coordinator::connectRenderer(address(0), {}, telemetry);
+    ASSERT_TRUE(counted->runProgram(directSend(0), soon()).ok());
+    const std::string metrics =
+        telemetry->metrics.text({}, {{observe::rendererName(address(0)), true}});
+    EXPECT_THAT(metrics, HasSubstr("eyrie_renderer_pictures_total{way=\"messages\"} 1"));
+    EXPECT_THAT(metrics, Not(HasSubstr("eyrie_received_bytes_total{peer=\"renderer\"} 0\n")));
+    EXPECT_THAT(metrics, HasSubstr("eyrie_received_bytes_total{peer=\"renderer\"} "));
+    EXPECT_THAT(metrics, HasSubstr("memory=\"device\",renderer=\"s0\"} 12\n"));
+    EXPECT_THAT(metrics, HasSubstr("memory=\"host\",renderer=\"s0\"} 34\n"));
 }
 
 TEST_F(ExchangeTest, BinarySwapAmongFourIsTheCentralMergeToTheBit) {

@@ -118,6 +118,8 @@ public:
         };
     }
 
+    DrawerMemory memory() const override { return {12, 34}; }
+
     static fabric::ChannelResult picture(const fabric::FrameData& frameData,
                                          const fabric::ChannelTask& task) {
         fabric::ChannelResult result;

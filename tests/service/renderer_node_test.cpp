@@ -234,13 +234,73 @@ TEST(RendererNode, AnAddressOfAnotherFormIsRefused) {
     EXPECT_EQ(node.status().code(), absl::StatusCode::kInvalidArgument);
 }
 
+std::unique_ptr<v1::RegistryService::Stub> registryAt(const std::string& address) {
+    return v1::RegistryService::NewStub(grpc::CreateCustomChannel(
+        address, grpc::InsecureChannelCredentials(), wire::clientArguments()));
+}
+
+/// A coordinator's door.
+struct Door {
+    explicit Door(const std::string& address)
+        : service(GrpcService::start({address}, registry).value()), stub(registryAt(address)) {}
+
+    /// The id that a renderer at `address` is given.
+    std::string registered(const std::string& address) const {
+        v1::RegisterRendererRequest request;
+        request.set_address(address);
+        request.set_software_version(std::string(fabric::kVersion));
+        request.set_protocol_checksum(wire::protocolChecksum());
+        v1::RegisterRendererResponse response;
+        grpc::ClientContext context;
+        EXPECT_TRUE(stub->RegisterRenderer(&context, request, &response).ok());
+        return response.renderer_id();
+    }
+    grpc::StatusCode heartbeat(const std::string& id) const {
+        v1::HeartbeatRequest request;
+        request.set_renderer_id(id);
+        v1::HeartbeatResponse response;
+        grpc::ClientContext context;
+        return stub->Heartbeat(&context, request, &response).error_code();
+    }
+    grpc::StatusCode drain(const std::string& id) const {
+        v1::DrainRequest request;
+        request.set_renderer_id(id);
+        v1::DrainResponse response;
+        grpc::ClientContext context;
+        return stub->Drain(&context, request, &response).error_code();
+    }
+
+    Registry registry;
+    const std::unique_ptr<GrpcService> service;
+    const std::unique_ptr<v1::RegistryService::Stub> stub;
+};
+
+TEST(CoordinatorGrpc, AnIdOfTheCoordinatorBeforeIsNobodysOfTheNext) {
+    const test::TemporaryFolder folder;
+    const std::string address = "unix:" + folder.path("s");
+    std::string before;
+    {
+        const Door door(address);
+        before = door.registered("127.0.0.1:1");
+        EXPECT_EQ(door.heartbeat(before), grpc::StatusCode::OK);
+    }
+    const Door door(address);
+    const std::string other = door.registered("127.0.0.1:2");
+    EXPECT_EQ(door.heartbeat(before), grpc::StatusCode::NOT_FOUND);
+    EXPECT_EQ(door.drain(before), grpc::StatusCode::NOT_FOUND);
+    ASSERT_EQ(door.registry.entries().size(), 1U);
+    EXPECT_EQ(door.registry.entries()[0].id, "renderer-1") << "as people see it";
+    EXPECT_EQ(door.registry.entries()[0].presence, Registry::Presence::Alive);
+    EXPECT_EQ(door.heartbeat(other), grpc::StatusCode::OK);
+    EXPECT_EQ(door.drain(other), grpc::StatusCode::OK);
+    EXPECT_EQ(door.registry.entries()[0].presence, Registry::Presence::Draining);
+}
+
 /// A renderer that offers itself.
 struct Offer {
     Offer(const std::string& version, std::uint64_t protocol) {
         const auto door = GrpcService::start({"unix:" + folder.path("s")}, registry).value();
-        const auto stub = v1::RegistryService::NewStub(
-            grpc::CreateCustomChannel("unix:" + folder.path("s"),
-                                      grpc::InsecureChannelCredentials(), wire::clientArguments()));
+        const auto stub = registryAt("unix:" + folder.path("s"));
         v1::RegisterRendererRequest request;
         request.set_address("127.0.0.1:1");
         request.set_software_version(version);
