@@ -122,6 +122,7 @@ struct Average {
     std::vector<std::size_t> samples;  ///< framebuffers
     std::size_t framebuffer = 0;
     fabric::PixelViewport part;
+    Combine combine = Combine::Over;
 
     bool operator==(const Average&) const = default;
 };
