@@ -176,6 +176,10 @@ struct Plan {
     config::Findings gaps;
 };
 
+/// What is on display when that is asked for: what the request says, in the sizes of its outputs,
+/// whose canvases are there.
+config::Display displayOf(const config::Configuration& configuration, const PlanRequest& request);
+
 /// Why there is no plan: errors, each where it is in the configuration.
 struct Refusals {
     config::Findings impossible;  ///< in any size, or asked for what is not there

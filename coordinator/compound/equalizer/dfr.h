@@ -14,7 +14,7 @@ namespace eyrie::equalizer {
 /// Frames that are to be complete have the pixels that are written, and tell it nothing.
 ///
 /// From 128 pixels on the shorter side up to the size of the channel that draws, which may be more
-/// than is shown.
+/// than is shown, as far as renderers draw that.
 class Dfr final : public Balancer {
 public:
     Dfr(const config::Compound& written, std::size_t position, const Work& work);
