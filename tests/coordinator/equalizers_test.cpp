@@ -43,6 +43,19 @@ TEST(TreeEqualizer, SharesOutWhatTheTimesOfItsSubtreesSay) {
     }
 }
 
+TEST(TreeEqualizer, ComesToRestWhileFramesAreInFlight) {
+    for (const int children : {2, 4})
+        for (const std::size_t late : {1, 3}) {
+            Balanced balanced(
+                configurationOf(children - 1, sharedBetween(children, "tree_equalizer { }")));
+            balanced.late = late;
+            std::vector<double> times;
+            for (int frame = 0; frame < 40; ++frame) times = balanced.draw(kRight);
+            EXPECT_LE(*std::ranges::max_element(times), 1.15 * 100 / children)
+                << children << " children, " << late << " late";
+        }
+}
+
 TEST(TreeEqualizer, CutsPicturesByTurnsAcrossAndAlong) {
     Balanced balanced(configurationOf(3, sharedBetween(4, "tree_equalizer { }")));
     balanced.apply();
