@@ -156,6 +156,25 @@ TEST(DfrEqualizer, HoldsAFrameRateByTheNumberOfPixels) {
     EXPECT_NEAR(balanced.equalizers.states()[0].report.framesPerSecond, 20, .5);
 }
 
+TEST(DfrEqualizer, ComesToRestWhileFramesAreInFlight) {
+    for (const double damping : {.5, 1.0})
+        for (const std::size_t late : {0, 1, 3, 7}) {
+            Balanced balanced(configurationOf(0, kReduced));
+            Tuning tuning;
+            tuning.damping = damping;
+            ASSERT_TRUE(balanced.equalizers.tune(0, tuning).ok());
+            balanced.late = late;
+            for (int frame = 0; frame < 60; ++frame) {
+                const std::vector<double> times = balanced.draw([](const auto& part) {
+                    return 1e-4 * static_cast<double>(part.pixelViewport.area());
+                });
+                if (frame >= 40) {
+                    EXPECT_NEAR(times[1], 50, 1) << damping << ", " << late << " late";
+                }
+            }
+        }
+}
+
 TEST(DfrEqualizer, LeavesFramesThatAreToBeCompleteAsTheyAreWritten) {
     Balanced balanced(configurationOf(0, kReduced));
     const auto slow = [](const config::ResolvedCompound& part) {
