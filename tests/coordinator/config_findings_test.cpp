@@ -119,6 +119,13 @@ TEST(EqcWarnings, SayWhatHasNoEffect) {
                 HasSubstr("on screen only: 'EQ_WINDOW_IATTR_HINT_FULLSCREEN'"));
 }
 
+TEST(EqcWarnings, SayHowManyFramesAreUnderWayAtMost) {
+    EXPECT_EQ(describe(Read("config { latency 7 }").findings, "f"), "");
+    EXPECT_EQ(describe(Read("config { latency 8 }").findings, "f"),
+              "f:1:10: warning: 'latency' is 8; no more than 8 frames are under way at once, as "
+              "with a latency of 7\n");
+}
+
 TEST(EqcWarnings, SayWhatShowsNothing) {
     const std::string node = "config { appNode { pipe { window { channel { name \"a\" } } } } ";
     const auto shown = [&node](const std::string& mode, const std::string& eyes) {
