@@ -101,6 +101,14 @@ TEST(EqcErrors, AreImpossibleShares) {
             << compound;
 }
 
+TEST(EqcErrors, AreFocusesThatAreNotAhead) {
+    for (const char* distance : {"0", "-2"})
+        EXPECT_THAT(
+            firstError(std::string("config { observer { focus_distance ") + distance + " } }"),
+            HasSubstr(std::string("1:10 an observer's focus distance is ") + distance +
+                      "; it must be above 0"));
+}
+
 TEST(EqcErrors, AreEyesThatAreNotBeforeTheirWall) {
     EXPECT_THAT(firstError("config { appNode { pipe { window { channel { name \"a\" } } } }"
                            " observer { eye_cyclop [ 0 0 -2 ] } layout { view { observer 0 } }"
