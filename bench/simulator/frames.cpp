@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "bench/simulator/events.h"
+#include "coordinator/config/frames_under_way.h"
 #include "coordinator/config/resolved.h"
 
 namespace eyrie::simulator {
@@ -277,11 +278,10 @@ absl::StatusOr<Prediction> predict(const config::Configuration& configuration, c
         return absl::InvalidArgumentError(config::describe(findings, "the configuration"));
     Farm farm(configuration, resolved, costs, machines, triangles);
     const std::int64_t period = longestPeriod(resolved);
-    const auto latency =
-        static_cast<std::size_t>(std::clamp<std::int64_t>(configuration.latency, 0, 1024));
+    const std::int64_t underWay = config::framesUnderWay(configuration.latency);
+    const auto latency = static_cast<std::size_t>(underWay - 1);
     // The first periods fill what is in flight; frames of the last one are those that count.
-    const std::int64_t count =
-        latency == 0 ? period : 3 * std::max<std::int64_t>(period, configuration.latency + 1);
+    const std::int64_t count = latency == 0 ? period : 3 * std::max(period, underWay);
     std::vector<Farm::Frame> frames;
     for (std::int64_t i = 0; i < count; ++i) {
         const auto before = frames.size() > latency

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/config/frames_under_way.h"
+
 namespace eyrie::simulator {
 namespace {
 
@@ -127,7 +129,7 @@ std::vector<Layout> layoutsOf(int renderers, int width, int height) {
         {"DPlex",
          whole(gathered(renderers,
                         [&](int i) { return fmt::format("phase {} period {} ", i, renderers); }),
-               renderers - 1)});
+               static_cast<int>(config::framesUnderWay(renderers - 1)) - 1)});
     return layouts;
 }
 

@@ -112,14 +112,13 @@ private:
     }
 
     void carryOut(const Average& step) {
+        const std::size_t first = step.samples.front();
+        // Where nothing was drawn there is no depth either, but background by depth.
+        const bool withDepth = isByDepth(step.combine) || layers_[first].image.hasDepth();
         std::vector<Image> samples;
         for (const std::size_t each : step.samples)
-            samples.push_back(cut(layers_[each], step.part, layers_[each].image.hasDepth()));
-        const bool withDepth = samples.front().hasDepth();
-        for (Image& each : samples)
-            if (!withDepth)
-                each.depth.clear();
-        combine(composite::mean(samples), step.part, Combine::Replace, layers_[step.framebuffer]);
+            samples.push_back(cut(layers_[each], step.part, withDepth && each == first));
+        combine(composite::mean(samples), step.part, step.combine, layers_[step.framebuffer]);
     }
 
     /// A part of what is there, background included.

@@ -88,9 +88,9 @@ public:
         step.part = intersection(step.part, need.area);
         if (step.part.isEmpty())
             return false;
+        const bool depth = comeOver(step.combine, step.part, true, need);
         for (const std::size_t sample : step.samples)
-            framebuffers_[sample].include(step.part, need.depth && sample == step.samples.front());
-        need.overwrite(step.part);
+            framebuffers_[sample].include(step.part, depth && sample == step.samples.front());
         return true;
     }
 

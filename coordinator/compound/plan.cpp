@@ -52,26 +52,6 @@ config::ShownCanvas& entry(config::Display& display, std::size_t canvas) {
     return display.canvases[canvas];
 }
 
-/// The outputs' sizes become those of what is on display.
-config::Display displayOf(const config::Configuration& configuration, const PlanRequest& request) {
-    config::Display display = request.display;
-    for (const Output& output : request.outputs) {
-        config::ShownCanvas& canvas = entry(display, output.canvas);
-        if (output.segment) {
-            if (canvas.segments.size() <= *output.segment)
-                canvas.segments.resize(*output.segment + 1);
-            if (output.size)
-                canvas.segments[*output.segment] = output.size;
-        } else if (output.size) {
-            canvas.size = output.size;
-        } else if (!canvas.size) {
-            canvas.size =
-                config::configuredSize(configuration, configuration.canvases[output.canvas]);
-        }
-    }
-    return display;
-}
-
 /// A destination shows an eye where one of its compounds does.
 void showEyesOfCompounds(config::ResolvedConfiguration& resolved) {
     for (config::Destination& each : resolved.destinations) each.eyes = {};
@@ -150,6 +130,25 @@ bool hasAny(const Refusals& refusals) {
 }
 
 }  // namespace
+
+config::Display displayOf(const config::Configuration& configuration, const PlanRequest& request) {
+    config::Display display = request.display;
+    for (const Output& output : request.outputs) {
+        config::ShownCanvas& canvas = entry(display, output.canvas);
+        if (output.segment) {
+            if (canvas.segments.size() <= *output.segment)
+                canvas.segments.resize(*output.segment + 1);
+            if (output.size)
+                canvas.segments[*output.segment] = output.size;
+        } else if (output.size) {
+            canvas.size = output.size;
+        } else if (!canvas.size) {
+            canvas.size =
+                config::configuredSize(configuration, configuration.canvases[output.canvas]);
+        }
+    }
+    return display;
+}
 
 std::optional<Plan> makePlan(const config::Configuration& configuration, const PlanRequest& asked,
                              Refusals& refusals) {

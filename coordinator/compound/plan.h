@@ -122,6 +122,7 @@ struct Average {
     std::vector<std::size_t> samples;  ///< framebuffers
     std::size_t framebuffer = 0;
     fabric::PixelViewport part;
+    Combine combine = Combine::Over;
 
     bool operator==(const Average&) const = default;
 };
@@ -174,6 +175,10 @@ struct Plan {
     /// Of PlanRequest::looksForGaps: warnings of parts of pictures that nobody draws.
     config::Findings gaps;
 };
+
+/// What is on display when that is asked for: what the request says, in the sizes of its outputs,
+/// whose canvases are there.
+config::Display displayOf(const config::Configuration& configuration, const PlanRequest& request);
 
 /// Why there is no plan: errors, each where it is in the configuration.
 struct Refusals {

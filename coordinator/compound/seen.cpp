@@ -95,12 +95,7 @@ double focusRatio(const config::Configuration& configuration, const config::Disp
     const config::Observer* const observer = observerOf(configuration, view);
     if (observer == nullptr || observer->focusMode == config::FocusMode::Fixed)
         return 1;
-    const Mat4 head = headOf(view, display);
-    const Vec3 eye = moved(head, config::eyePlaces(configuration, view).cyclop);
     const bool fromObserver = observer->focusMode == config::FocusMode::RelativeToObserver;
-    const Vec3 from = fromObserver ? eye : Vec3(0, 0, 0);
-    const Vec3 ahead =
-        fromObserver ? glm::normalize(Vec3(head * Vec4(0, 0, -1, 0))) : Vec3(0, 0, -1);
     double nearest = std::numeric_limits<double>::infinity();
     double ratio = 1;
     for (const config::Destination& other : resolved.destinations) {
@@ -109,6 +104,12 @@ double focusRatio(const config::Configuration& configuration, const config::Disp
                               other.index.view == destination.index.view;
         if (!isOfView || !other.panorama.wall)
             continue;
+        // What is worn is where the head is, whose own coordinates it is in.
+        const Mat4 head = other.panorama.wall->movesWithHead ? Mat4(1.0) : headOf(view, display);
+        const Vec3 eye = moved(head, config::eyePlaces(configuration, view).cyclop);
+        const Vec3 from = fromObserver ? eye : Vec3(0, 0, 0);
+        const Vec3 ahead =
+            fromObserver ? glm::normalize(Vec3(head * Vec4(0, 0, -1, 0))) : Vec3(0, 0, -1);
         const double distance = config::distanceAlong(*other.panorama.wall, from, ahead);
         // Along the same direction, how far the eye is; it stays where it is while the wall moves.
         const double ofEye = config::distanceAlong(*other.panorama.wall, eye, ahead);

@@ -101,21 +101,47 @@ private:
 
     /// Every sample is a picture by itself; the framebuffer gets their mean.
     void average(const Work& work, const std::map<std::int64_t, std::vector<Input>>& samples) {
-        Average mean{{}, work.framebuffer, {}};
+        Average mean;
+        mean.framebuffer = work.framebuffer;
+        bool hasDepth = true;
         for (const auto& [index, inputs] : samples) {
             const std::size_t sample = list_.framebuffers.size();
             list_.framebuffers.push_back(list_.framebuffers[work.framebuffer]);
             list_.framebuffers.back().framebuffer.isDestination = false;
             contents_.emplace_back();
             assembleAll(inputs, work, sample);
-            for (const Content& each : contents_[sample].all())
-                mean.part = fabric::enclosing(mean.part, each.area);
+            for (const Input& each : inputs)
+                hasDepth = hasDepth && list_.frames[each.frame].hasDepth;
             mean.samples.push_back(sample);
         }
-        if (mean.part.isEmpty())
+        const Content content = meanOf(mean.samples);
+        if (content.area.isEmpty())
             return;
-        contents_[work.framebuffer].add({mean.part, {}, {}});
+        Contents& target = contents_[work.framebuffer];
+        const auto met = target.met(content);
+        const bool isComplete = met && content.isFull && contains(content.range, *met);
+        mean.part = content.area;
+        mean.combine = combineWith(met, content, isComplete, hasDepth);
+        if (mean.combine == Combine::Replace)
+            target.clear(content.area);
+        target.add(content);
         steps_.emplace_back(std::move(mean));
+    }
+
+    /// Around all that is in the samples.
+    Content meanOf(const std::vector<std::size_t>& samples) const {
+        Contents all;
+        Content content;
+        for (const std::size_t sample : samples)
+            for (const Content& each : contents_[sample].all()) {
+                all.add(each);
+                content.area = fabric::enclosing(content.area, each.area);
+            }
+        content.range = all.range().value_or(fabric::Range{});
+        content.isFull = std::ranges::all_of(samples, [&](std::size_t sample) {
+            return contents_[sample].cover(content.area, content.range);
+        });
+        return content;
     }
 
     const Lattice& latticeOf(std::size_t framebuffer) const {

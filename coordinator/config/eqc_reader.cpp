@@ -8,6 +8,7 @@
 
 #include "coordinator/config/attribute_table.h"
 #include "coordinator/config/eqc_grammar.h"
+#include "coordinator/config/frames_under_way.h"
 #include "coordinator/config/same_names.h"
 #include "coordinator/config/section_readers.h"
 #include "coordinator/config/upgrade.h"
@@ -30,6 +31,13 @@ void readConfig(const Statement& block, ValueReader& reader, Configuration& conf
          {"latency",
           [&](const auto& each) {
               reader.wholeNumber(each, 0, kMostLatency, configuration.latency);
+              if (configuration.latency >= kMostFramesUnderWay)
+                  reader.findings().warning(
+                      each.place,
+                      fmt::format("'latency' is {}; no more than {} frames are under way at once, "
+                                  "as with a latency of {}",
+                                  configuration.latency, kMostFramesUnderWay,
+                                  kMostFramesUnderWay - 1));
           }},
          {"attributes",
           [&](const auto& each) {

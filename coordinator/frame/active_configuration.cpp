@@ -111,6 +111,7 @@ absl::Status ActiveConfiguration::show(config::ConfigurationState state) {
     for (Balance& balance : balances_) showIn(balance.live);
     config::Findings findings;
     resolved_ = config::resolve(shown_, display_, findings);
+    drawn_.reset();
     pipes_ = pipesOf(shown_, resolved_);
     return firstError(findings);
 }
@@ -240,9 +241,21 @@ absl::StatusOr<compound::Plan> ActiveConfiguration::plan(const FrameRequest& req
     asked.frameNumber = frameNumber;
     Balance& balance = balanceOf(request.session);
     balance.equalizers.apply(balance.live,
-                             {frameNumber, resolved_, gone(away),
+                             {frameNumber, drawnAs(asked), gone(away),
                               request.completeness == fabric::Completeness::Complete});
     return compound::makePlan(balance.live, asked);
+}
+
+/// Not as large as it is written: equalizers share out, reduce and enlarge what is asked for.
+const config::ResolvedConfiguration& ActiveConfiguration::drawnAs(
+    const compound::PlanRequest& asked) {
+    config::Display display = compound::displayOf(shown_, asked);
+    if (!drawn_ || drawn_->display != display) {
+        config::Findings findings;  // those of what is shown
+        config::ResolvedConfiguration resolved = config::resolve(shown_, display, findings);
+        drawn_ = Sized{std::move(display), std::move(resolved)};
+    }
+    return drawn_->resolved;
 }
 
 /// The channels whose renderer is away; none where all are.

@@ -105,12 +105,19 @@ private:
         equalizer::Equalizers equalizers;
     };
 
+    /// What is shown, in the sizes of a request.
+    struct Sized {
+        config::Display display;
+        config::ResolvedConfiguration resolved;
+    };
+
     Balance& balanceOf(std::uint64_t session);
     void showIn(config::Configuration& live) const;
     absl::StatusOr<compound::PlanRequest> planRequestOf(const FrameRequest& request) const;
     absl::StatusOr<compound::Output> outputOf(const Shown& shown,
                                               const FrameRequest& request) const;
     std::vector<config::ChannelIndex> gone(const std::vector<std::string>& away) const;
+    const config::ResolvedConfiguration& drawnAs(const compound::PlanRequest& asked);
     absl::Status show(config::ConfigurationState state);
 
     config::Configuration written_;
@@ -118,6 +125,7 @@ private:
     config::Configuration shown_;             ///< written_, with what state_ changes of it
     config::Display display_;                 ///< of state_
     config::ResolvedConfiguration resolved_;  ///< of shown_, as displayed
+    std::optional<Sized> drawn_;              ///< for the last frame planned
     std::vector<Pipe> pipes_;
     RendererOfPipe renderers_;
     std::list<Balance> balances_;  ///< never empty; that planned for last comes first

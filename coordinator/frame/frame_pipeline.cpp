@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/config/frames_under_way.h"
 #include "coordinator/frame/dispatch.h"
 #include "coordinator/frame/problem.h"
 #include "fabric/status.h"
@@ -71,7 +72,7 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderLatest(const ChooseFrame& cho
 
 absl::StatusOr<RenderedFrame> FramePipeline::render(const FrameRequest& asked,
                                                     FrameGate::Pass& pass) {
-    const std::string line = fmt::format("frames {}", pass.ticket() % FramePlanner::kMostFrames);
+    const std::string line = fmt::format("frames {}", pass.ticket() % config::kMostFramesUnderWay);
     observe::StageTimer total(telemetry(), observe::Stage::Total, line);
     absl::StatusOr<RenderedFrame> frame = renderInTurn(asked, pass, line, total);
     if (telemetry() != nullptr) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "coordinator/config/frames_under_way.h"
 #include "fabric/status.h"
 
 namespace eyrie::coordinator {
@@ -156,7 +157,7 @@ absl::Status FramePlanner::withConfiguration(
 
 int FramePlanner::framesUnderWay() const {
     const std::lock_guard lock(mutex_);
-    return static_cast<int>(std::clamp<std::int64_t>(configuration_.latency() + 1, 1, kMostFrames));
+    return static_cast<int>(config::framesUnderWay(configuration_.latency()));
 }
 
 std::set<std::string> FramePlanner::renderersUsed() const {

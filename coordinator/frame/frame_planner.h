@@ -24,9 +24,6 @@ class FramePlanner {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// More are never under way: renderers keep the frame data of as many.
-    static constexpr int kMostFrames = 8;
-
     /// As for ConfigurationKeeper.
     FramePlanner(std::optional<config::Configuration> given, std::string layout,
                  std::function<void()> changed, ConfigurationKeeping keeping);
@@ -59,8 +56,7 @@ public:
     std::vector<CanvasStatus> canvases() const { return configuration_.canvases(); }
     std::size_t renderersWanted() const { return configuration_.renderersWanted(); }
 
-    /// As the configuration has it: its latency and the one that is being seen, at most
-    /// kMostFrames.
+    /// As the configuration has it: config::framesUnderWay.
     int framesUnderWay() const;
     /// Ids of those that the last frame's configuration has something to do for.
     std::set<std::string> renderersUsed() const;

@@ -104,6 +104,18 @@ TEST(Prediction, IsPerfectWhereNothingButSharedWorkCosts) {
                 8 * 1000. / 64, 1e-3);
 }
 
+TEST(Prediction, HasNoMoreFramesUnderWayThanTheProgram) {
+    config::Configuration dplex = layout(32, "DPlex");
+    dplex.latency = 7;
+    const auto most = predict(dplex, trianglesOnly(), instantLinks(), 1e6);
+    dplex.latency = 31;
+    const auto more = predict(dplex, trianglesOnly(), instantLinks(), 1e6);
+    ASSERT_TRUE(most.ok() && more.ok());
+    EXPECT_NEAR(most->framesPerSecond, 8 * 1000. / 64, 1e-3);
+    EXPECT_NEAR(more->framesPerSecond, most->framesPerSecond, 1e-3);
+    EXPECT_NEAR(more->frameMilliseconds, most->frameMilliseconds, 1e-6);
+}
+
 TEST(Prediction, GainsNothingFromRenderersThatShareOneCore) {
     Machines machines = instantLinks();
     machines.isOneMachine = true;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -106,6 +107,46 @@ config::Configuration room(const std::string& observer) {
         " } layout { view { mode STEREO observer 0 "
         "wall { bottom_left [ -1 -1 -2 ] bottom_right [ 1 -1 -2 ] top_left [ -1 1 -2 ] } } } "
         "canvas { layout 0 segment { channel \"0\" } } }");
+}
+
+/// What is drawn of a picture asked for at `width` x `height` after many frames of `milliseconds`:
+/// by a channel of `drawn` pixels for one of `shown`, with a resolution that goes by that.
+fabric::PixelViewport settled(const std::string& shown, const std::string& drawn, int width,
+                              int height, double milliseconds) {
+    ActiveConfiguration active(read(
+        "config { appNode { pipe { window { viewport [ 0 0 " + shown +
+        " ] channel { name \"0\" } } } pipe { window { viewport [ 0 0 " + drawn +
+        " ] channel { name \"1\" } } } } layout { view { } } "
+        "canvas { layout 0 segment { channel \"0\" } } "
+        "compound { channel ( segment 0 view 0 ) compound { channel \"1\" "
+        "DFR_equalizer { framerate 20 } outputframe { } } inputframe { name \"frame.1\" } } }"));
+    FrameRequest request;
+    request.width = width;
+    request.height = height;
+    request.completeness = fabric::Completeness::Interactive;
+    fabric::PixelViewport area;
+    for (std::uint64_t number = 1; number <= 30; ++number) {
+        const absl::StatusOr<compound::Plan> plan = active.plan(request, number, {});
+        if (!plan.ok() || plan->draws.size() != 1) {
+            ADD_FAILURE() << plan.status();
+            return {};
+        }
+        area = plan->draws[0].task.pixelViewport;
+        ActiveConfiguration::Taken taken{area, {}, milliseconds};
+        taken.stages.total = milliseconds;
+        active.record(0, *plan, number, std::span(&taken, 1));
+    }
+    return area;
+}
+
+TEST(ActiveConfiguration, ReducesPicturesToTheirOwnLeastWhateverTheWindow) {
+    EXPECT_EQ(settled("1280 800", "1280 800", 320, 200, 1e6).height, 128);
+}
+
+TEST(ActiveConfiguration, EnlargesPicturesToWhatTheChannelHasAndRenderersDraw) {
+    EXPECT_EQ(settled("320 200", "1280 800", 640, 400, .01),
+              (fabric::PixelViewport{0, 0, 1280, 800}));
+    EXPECT_EQ(settled("320 200", "40000 40000", 10000, 200, .01).width, fabric::kMaxViewPixels);
 }
 
 /// Draws the session's next frame, all of whose load lies in a tenth of the picture, from `begin`

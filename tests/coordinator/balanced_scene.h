@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -72,7 +74,11 @@ public:
             milliseconds[i] = load(resolved.compounds[i]);
             frame.compounds[i].draw = milliseconds[i];
         }
-        equalizers.record(frame);
+        underWay_.push_back(std::move(frame));
+        if (underWay_.size() > late) {
+            equalizers.record(underWay_.front());
+            underWay_.pop_front();
+        }
         return milliseconds;
     }
 
@@ -91,10 +97,13 @@ public:
     config::ResolvedConfiguration asWritten;
     std::vector<config::ChannelIndex> gone;
     bool isComplete = false;
+    std::size_t late = 0;  ///< frames that are planned before one's times are known
     Equalizers equalizers;
     std::uint64_t number = 0;
 
 private:
+    std::deque<FrameTimes> underWay_;
+
     void resolve() {
         config::Findings findings;
         resolved = config::resolve(live, findings);

@@ -9,9 +9,11 @@
 #include <rapidcheck/gtest.h>
 
 #include "composed_pictures.h"
+#include "coordinator/composite/mean.h"
 #include "coordinator/compound/compose.h"
 #include "coordinator/compound/jitter.h"
 #include "coordinator/compound/plan.h"
+#include "fabric/depth_merge.h"
 #include "layered_scene.h"
 
 namespace eyrie::compound {
@@ -48,6 +50,71 @@ RC_GTEST_PROP(Compose, SubpixelsAreTheMeanOfPicturesAtTheJittersPlaces, (std::ui
     }
     for (std::size_t k = 0; k < sums.size(); ++k)
         RC_ASSERT(got[0].colour[k].r == (2 * sums[k] + count) / (2 * count));
+}
+
+constexpr config::Buffers kWithDepth{true, true};
+
+/// On this channel, with depth: of a range, and perhaps one of two subpixels.
+config::Compound part(std::size_t channel, const fabric::Range& range,
+                      const config::SubPixelShare& subpixel) {
+    config::Compound made = source(channel);
+    made.outputFrames[0].buffers = kWithDepth;
+    made.range = range;
+    made.subpixel = subpixel;
+    return made;
+}
+
+/// The whole picture of a range, at one of two subpixels' places or at pixels' middles.
+fabric::Image wholeOf(const LayeredScene& scene, const fabric::Range& range,
+                      const config::SubPixelShare& subpixel) {
+    const auto plan = makePlan(withChildren({}), wholeCanvas());
+    EXPECT_TRUE(plan.ok());
+    const fabric::PixelViewport area{0, 0, kSize.width, kSize.height};
+    fabric::ChannelTask task{0, 0, area.width, area.height, area, range, true};
+    task.raster = fabric::Raster{area.width, area.height, {0, 0}, {1, 1}};
+    if (subpixel.count > 1)
+        task.raster->origin = jitter(subpixel.index, subpixel.count);
+    task.sight = plan->draws.front().task.sight;
+    fabric::Image image = fabric::makeImage(area, LayeredScene::kBackground, true);
+    fabric::paste(scene.draw(task).image, image);
+    return image;
+}
+
+/// A range drawn as it is, another as the mean of two subpixels: by depth, the lower one first.
+fabric::Image mixed(const LayeredScene& scene, const fabric::Range& drawn,
+                    const fabric::Range& sampled) {
+    const fabric::Image plain = wholeOf(scene, drawn, {});
+    const std::vector<fabric::Image> samples = {wholeOf(scene, sampled, {0, 2}),
+                                                wholeOf(scene, sampled, {1, 2})};
+    const fabric::Image mean = composite::mean(samples);
+    fabric::Image image = drawn.begin < sampled.begin ? plain : mean;
+    fabric::mergeDepth(drawn.begin < sampled.begin ? mean : plain, image);
+    return image;
+}
+
+RC_GTEST_PROP(Compose, SubpixelsOfARangeLeaveTheRestOfTheData, (std::uint32_t seed)) {
+    const LayeredScene scene(seed);
+    fabric::Range drawn{0, .5};
+    fabric::Range sampled{.5, 1};
+    if (*rc::gen::arbitrary<bool>())
+        std::swap(drawn, sampled);
+    config::Compound own;
+    own.range = drawn;
+    config::Compound mean = part(1, sampled, {});
+    mean.buffers = kWithDepth;
+    config::Compound first;
+    first.subpixel = {0, 2};
+    mean.children = {first, part(2, {}, {1, 2})};
+    mean.inputFrames = {RandomCompounds::frame("f2")};
+    const std::vector<std::vector<config::Compound>> forms = {
+        {own, mean}, {own, part(1, sampled, {0, 2}), part(2, sampled, {1, 2})}};
+    for (const std::vector<config::Compound>& form : forms) {
+        config::Configuration made = withChildren(form);
+        made.compounds[0].buffers = kWithDepth;
+        const auto got = pictures(made, wholeCanvas(), scene);
+        RC_ASSERT(got.size() == 1U);
+        RC_ASSERT(differingPixels(got[0], mixed(scene, drawn, sampled)) == 0);
+    }
 }
 
 TEST(Compose, ZoomedByHalfEachPixelStandsForFour) {

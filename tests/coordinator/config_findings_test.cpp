@@ -101,6 +101,14 @@ TEST(EqcErrors, AreImpossibleShares) {
             << compound;
 }
 
+TEST(EqcErrors, AreFocusesThatAreNotAhead) {
+    for (const char* distance : {"0", "-2"})
+        EXPECT_THAT(
+            firstError(std::string("config { observer { focus_distance ") + distance + " } }"),
+            HasSubstr(std::string("1:10 an observer's focus distance is ") + distance +
+                      "; it must be above 0"));
+}
+
 TEST(EqcErrors, AreEyesThatAreNotBeforeTheirWall) {
     EXPECT_THAT(firstError("config { appNode { pipe { window { channel { name \"a\" } } } }"
                            " observer { eye_cyclop [ 0 0 -2 ] } layout { view { observer 0 } }"
@@ -117,6 +125,13 @@ TEST(EqcWarnings, SayWhatHasNoEffect) {
     EXPECT_THAT(text, HasSubstr("no outputframe of this compound tree is named \"x\""));
     EXPECT_THAT(describe(sample("1-pipe.eqc").findings, "f"),
                 HasSubstr("on screen only: 'EQ_WINDOW_IATTR_HINT_FULLSCREEN'"));
+}
+
+TEST(EqcWarnings, SayHowManyFramesAreUnderWayAtMost) {
+    EXPECT_EQ(describe(Read("config { latency 7 }").findings, "f"), "");
+    EXPECT_EQ(describe(Read("config { latency 8 }").findings, "f"),
+              "f:1:10: warning: 'latency' is 8; no more than 8 frames are under way at once, as "
+              "with a latency of 7\n");
 }
 
 TEST(EqcWarnings, SayWhatShowsNothing) {

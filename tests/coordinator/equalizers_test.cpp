@@ -43,6 +43,19 @@ TEST(TreeEqualizer, SharesOutWhatTheTimesOfItsSubtreesSay) {
     }
 }
 
+TEST(TreeEqualizer, ComesToRestWhileFramesAreInFlight) {
+    for (const int children : {2, 4})
+        for (const std::size_t late : {1, 3}) {
+            Balanced balanced(
+                configurationOf(children - 1, sharedBetween(children, "tree_equalizer { }")));
+            balanced.late = late;
+            std::vector<double> times;
+            for (int frame = 0; frame < 40; ++frame) times = balanced.draw(kRight);
+            EXPECT_LE(*std::ranges::max_element(times), 1.15 * 100 / children)
+                << children << " children, " << late << " late";
+        }
+}
+
 TEST(TreeEqualizer, CutsPicturesByTurnsAcrossAndAlong) {
     Balanced balanced(configurationOf(3, sharedBetween(4, "tree_equalizer { }")));
     balanced.apply();
@@ -141,6 +154,25 @@ TEST(DfrEqualizer, HoldsAFrameRateByTheNumberOfPixels) {
         });
     EXPECT_NEAR(times[1], 50, 1);
     EXPECT_NEAR(balanced.equalizers.states()[0].report.framesPerSecond, 20, .5);
+}
+
+TEST(DfrEqualizer, ComesToRestWhileFramesAreInFlight) {
+    for (const double damping : {.5, 1.0})
+        for (const std::size_t late : {0, 1, 3, 7}) {
+            Balanced balanced(configurationOf(0, kReduced));
+            Tuning tuning;
+            tuning.damping = damping;
+            ASSERT_TRUE(balanced.equalizers.tune(0, tuning).ok());
+            balanced.late = late;
+            for (int frame = 0; frame < 60; ++frame) {
+                const std::vector<double> times = balanced.draw([](const auto& part) {
+                    return 1e-4 * static_cast<double>(part.pixelViewport.area());
+                });
+                if (frame >= 40) {
+                    EXPECT_NEAR(times[1], 50, 1) << damping << ", " << late << " late";
+                }
+            }
+        }
 }
 
 TEST(DfrEqualizer, LeavesFramesThatAreToBeCompleteAsTheyAreWritten) {

@@ -79,6 +79,31 @@ TEST(Plan, AWornWallMovesWithTheHead) {
     EXPECT_NEAR(turned.viewFromCamera[0][2], 1, 1e-12) << "behind it is what is at the right";
 }
 
+TEST(Plan, AWornWallsFocusStaysWhereverTheHeadIs) {
+    for (const char* mode : {"relative_to_origin", "relative_to_observer"}) {
+        const config::Configuration worn =
+            room("observer { eye_base .1 focus_distance 5 focus_mode " + std::string(mode) +
+                 " } layout { view { observer 0 wall { type HMD } } } "
+                 "canvas { layout 0 segment { channel \"a\" } }");
+        PlanRequest request = canvasOf(640, 480);
+        for (const Eye eye : {Eye::Left, Eye::Right}) {
+            request.outputs[0].eye = eye;
+            request.display.heads = {fabric::Mat4(1.0)};
+            const fabric::Frustum still = sightOf(worn, request).frustum;
+            fabric::Mat4 head(1.0);  // looking to the left, three metres back and one up
+            head[0] = {0, 0, -1, 0};
+            head[2] = {1, 0, 0, 0};
+            head[3] = {0, 1, 3, 1};
+            request.display.heads = {head};
+            expectNear(sightOf(worn, request).frustum, still);
+            head = fabric::Mat4(1.0);
+            head[3] = {0, 0, -.5, 1};
+            request.display.heads = {head};
+            expectNear(sightOf(worn, request).frustum, still);
+        }
+    }
+}
+
 /// A view whose eyes are 10 cm apart before a wall 2 m ahead.
 config::Configuration focused(const std::string& mode, double distance) {
     return room("observer { eye_base .1 focus_mode " + mode + " focus_distance " +

@@ -152,7 +152,7 @@ private:
         made.eyeLeft = maybe([&] { return vector(); });
         made.eyeCyclop = maybe([&] { return vector(); });
         made.eyeRight = maybe([&] { return vector(); });
-        made.focusDistance = any({1.0, number()});
+        made.focusDistance = any({1.0, std::abs(number())});
         made.focusMode =
             any({FocusMode::Fixed, FocusMode::RelativeToOrigin, FocusMode::RelativeToObserver});
         made.openCvCamera = any({"", "ON", "007"});

@@ -171,6 +171,9 @@ TEST_F(EqualizerPictures, OfAMonitorAreThoseOfTheWallReducedWhereTheyBelong) {
             covered += at(shown, x, y) == at(shown, 0, 0) ? 0 : 1;
         }
     EXPECT_GT(covered, 100U) << "the ball is not in the picture";
+    seen.width = 2 * 160;  // as large as the wall now: pixel by pixel
+    seen.height = 2 * 60;
+    EXPECT_EQ(test::differentPixels(drawn(seen), wall), 0U);
 }
 
 /// All of the ball is in the left one.

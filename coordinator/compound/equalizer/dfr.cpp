@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "coordinator/config/destinations.h"
+#include "fabric/channel_task.h"
 
 namespace eyrie::equalizer {
 namespace {
@@ -42,7 +43,8 @@ void Dfr::apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) {
         return;
     if (milliseconds_ > 0 && !isFrozen) {
         const double ratio = framesPerSecond_ / settings.framerate;
-        zoom_ *= 1 + settings.damping * (std::min(std::sqrt(ratio), kMostAtOnce) - 1);
+        const double goal = itsZoom_ * std::min(std::sqrt(ratio), kMostAtOnce);
+        zoom_ += settings.damping * (goal - zoom_);
         milliseconds_ = 0;
     }
     const fabric::Vec2 shown(compound->pixelViewport.width, compound->pixelViewport.height);
@@ -50,7 +52,9 @@ void Dfr::apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) {
     if (!compound->destination || !(shorter > 0) || !std::isfinite(shorter))
         return;
     const double least = std::min(1.0, kLeastPixels / shorter);
-    zoom_ = std::clamp(zoom_, least, std::max(least, roomOf(turn, position_, shown)));
+    const double most = std::min(roomOf(turn, position_, shown),
+                                 fabric::kMaxViewPixels / std::max(shown.x, shown.y));
+    zoom_ = std::clamp(zoom_, least, std::max(least, most));
     turn.live[position_]->zoom = turn.facts.isComplete ? written_ : written_ * zoom_;
 }
 
@@ -62,8 +66,10 @@ void Dfr::record(const PlannedFrame& frame, const FrameTimes& times) {
     milliseconds_ = work_.longest(position_, frame, times);
     if (milliseconds_ > 0 && position_ < times.compounds.size())
         milliseconds_ += known(times.compounds[position_].assemble).value_or(0);
-    if (milliseconds_ > 0)
+    if (milliseconds_ > 0) {
         framesPerSecond_ = 1000 / milliseconds_;
+        itsZoom_ = frame.parts[position_].zoom.x / written_.x;
+    }
 }
 
 Report Dfr::report() const { return {.framesPerSecond = framesPerSecond_, .zoom = zoom_}; }

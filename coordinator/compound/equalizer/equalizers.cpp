@@ -48,7 +48,7 @@ bool isEmpty(const config::Compound& compound) {
 
 void addParts(const config::Compound& compound, bool isParentEmpty, std::vector<Part>& parts) {
     const bool nothing = isParentEmpty || isEmpty(compound);
-    parts.push_back({compound.viewport, compound.range, nothing});
+    parts.push_back({compound.viewport, compound.range, nothing, compound.zoom});
     for (const config::Compound& child : compound.children) addParts(child, nothing, parts);
 }
 

@@ -13,8 +13,8 @@ namespace eyrie::equalizer {
 /// What is known before a frame is planned.
 struct FrameFacts {
     std::uint64_t frameNumber = 0;
-    /// The configuration as it is written, without what equalizers have made of it. Only sizes,
-    /// channels, periods and destinations of compounds are read.
+    /// The configuration as it is written, without what equalizers have made of it, in the sizes
+    /// that it is drawn in. Only sizes, channels, periods and destinations of compounds are read.
     const config::ResolvedConfiguration& resolved;
     /// Channels whose renderer is away. They get no share until they are back.
     std::vector<config::ChannelIndex> gone = {};

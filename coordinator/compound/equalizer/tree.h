@@ -23,6 +23,8 @@ public:
     std::unique_ptr<Balancer> clone() const override { return std::make_unique<Tree>(*this); }
 
 private:
+    double shareBefore(const SplitTree::Wish& wish) const;
+    Area around(std::size_t first, std::size_t end) const;
     double sum(std::size_t first, std::size_t end, const std::vector<double>& values) const;
 
     const std::size_t position_;
@@ -31,6 +33,7 @@ private:
     SplitTree tree_;
     std::vector<double> resources_;  ///< of the last frame planned, by child
     std::vector<double> costs_;      ///< of the last frame recorded that is yet to be answered
+    std::vector<Area> parts_;        ///< that they had in that frame, of the whole
     double imbalance_ = 0;
 };
 

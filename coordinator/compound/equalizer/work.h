@@ -15,6 +15,7 @@ struct Part {
     config::Viewport viewport;
     fabric::Range range;
     bool isEmpty = false;  ///< it drew nothing, or nothing of its parent's was drawn
+    fabric::Vec2 zoom{1, 1};
 };
 
 /// A frame that was planned: its parts, by position as in Work.
