@@ -11,6 +11,7 @@ import { distanceLimits, lookAt } from "./camera/orbit";
 import type { Point } from "./camera/touch";
 import type { Bounds, Direction } from "./camera/standard";
 import { directionOfView, homeIn, standardCamera, standardViews } from "./camera/standard";
+import { seenFrom } from "./camera/walk";
 import type { Frame, SessionState } from "./protocol/messages";
 import type { LedView } from "./protocol/led_view";
 import { ledViewOf } from "./protocol/led_view";
@@ -90,6 +91,10 @@ export class Viewer implements CameraHolder {
   /** What a program has asked for in this page's place, as text, once it has been adopted. */
   private followed = "";
   private readonly scene = new ShownScene();
+  /** The camera with which a walk has ended. */
+  private walked: Camera | null = null;
+  /** The last camera of a flight. */
+  private flown: Camera | null = null;
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -199,7 +204,10 @@ export class Viewer implements CameraHolder {
 
   private walkingChanged(isWalking: boolean): void {
     if (isWalking && this.camera !== null) this.walker.begin(this.camera);
-    else this.walker.end();
+    else {
+      this.walker.end();
+      this.walked = this.camera;
+    }
     this.sender.request();
   }
 
@@ -221,6 +229,12 @@ export class Viewer implements CameraHolder {
     this.movements += 1;
     this.sender.request(inputTime);
     this.sender.sendUnlessWaiting();
+  }
+
+  /** To a camera of a flight, which may have been recorded walking: nothing lifts it. */
+  moveAlong(camera: Camera): void {
+    this.flown = camera;
+    this.move(camera);
   }
 
   goHome(inputTime?: number): void {
@@ -286,7 +300,7 @@ export class Viewer implements CameraHolder {
   sharedView(): SharedView | null {
     if (this.camera === null) return null;
     const settings = settingsOf(this.state);
-    return { camera: this.camera, ...settings, look: { ...settings.look, frozen: null } };
+    return { camera: this.camera, ...settings, look: { ...this.seenLook(), frozen: null } };
   }
 
   /** Which picture is seen: who watches names one in the address, or sees what the leader does. */
@@ -350,10 +364,14 @@ export class Viewer implements CameraHolder {
     };
   }
 
-  /** Nothing lifts a walk out of the ground: it is above it, and nearer than the server would let. */
+  /**
+   * Nothing lifts a walk out of the ground, which is nearer to it than the server would let, nor what
+   * is shown of a flight.
+   */
   private seenLook(): Look {
     const look = this.state.look.value;
-    return this.isWalking ? { ...look, underground: true } : look;
+    const isFlown = this.camera !== null && this.camera === this.flown;
+    return this.isWalking || isFlown ? { ...look, underground: true } : look;
   }
 
   /** Whoever leads, this page shows what its address says; where that says nothing, what is led. */
@@ -526,7 +544,11 @@ export class Viewer implements CameraHolder {
   private adoptLifted(): void {
     const { camera, sequence } = this.lifted;
     const isNewest = this.sender.isNewest(sequence);
-    if (camera !== undefined && isNewest && !this.controls.isDragging) this.camera = camera;
+    if (camera === undefined || !isNewest || this.controls.isDragging) return;
+    // What a walk looks at is near: with the eye alone lifted one would look down at it.
+    if (this.camera !== null && this.camera === this.walked)
+      this.moveTo(seenFrom(this.camera, camera.eye));
+    else this.camera = camera;
   }
 
   /** Holds the cut as this camera has it, or lets it follow the view again. */

@@ -22,6 +22,9 @@ class StageOfTest implements Stage {
     this.camera = camera;
     this.movements += 1;
   }
+  moveAlong(camera: Camera): void {
+    this.move(camera);
+  }
   exactNow(): Blob | undefined {
     return this.exact;
   }
