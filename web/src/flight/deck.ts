@@ -78,8 +78,12 @@ export class FlightDeck {
     this.seconds.set(0);
   }
 
-  edit(keys: readonly FlightKey[]): void {
+  /** `by` is given the keys that there are once whatever went on has ended. */
+  edit(by: (keys: readonly FlightKey[]) => readonly FlightKey[]): void {
     this.stop();
+    const before = this.flight.value.keys;
+    const keys = by(before);
+    if (keys === before) return;
     this.flight.set({ ...this.flight.value, keys });
     this.seconds.set(Math.min(this.seconds.value, this.length));
   }
