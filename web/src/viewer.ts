@@ -10,12 +10,13 @@ import type { DistanceLimits } from "./camera/orbit";
 import { distanceLimits, lookAt } from "./camera/orbit";
 import type { Point } from "./camera/touch";
 import type { Bounds, Direction } from "./camera/standard";
-import { directionOfView, homeIn, standardCamera, standardViews } from "./camera/standard";
+import { directionOfView, standardCamera, standardViews } from "./camera/standard";
 import { seenFrom } from "./camera/walk";
+import { homeOf, objectBounds, wholeBounds } from "./drawn_bounds";
 import type { Frame, SessionState } from "./protocol/messages";
 import type { LedView } from "./protocol/led_view";
 import { ledViewOf } from "./protocol/led_view";
-import { boundsOf, cameraOf } from "./protocol/messages";
+import { cameraOf } from "./protocol/messages";
 import { Socket } from "./protocol/socket";
 import type { Output } from "./output";
 import { isPacked, queryOf } from "./output";
@@ -239,30 +240,33 @@ export class Viewer implements CameraHolder {
 
   goHome(inputTime?: number): void {
     const session = this.state.session.value;
-    const [home, bounds] = [cameraOf(session?.home), boundsOf(session?.sceneBounds)];
-    if (home === undefined || bounds === undefined) return;
-    const { width, height } = this.canvas.size();
-    this.move(homeIn(home, bounds, width / Math.max(1, height)), inputTime);
+    const home = session && homeOf(session, this.state.look.value.exaggeration, this.aspect);
+    if (home) this.move(home, inputTime);
   }
 
   /** From where maps and drawings show things; `index` in standardViews. */
   goTo(index: number, inputTime?: number): void {
-    const view = standardViews[index];
-    const bounds = boundsOf(this.state.session.value?.sceneBounds);
-    if (view !== undefined && bounds !== undefined) this.frame(bounds, view, inputTime);
+    const [view, session] = [standardViews[index], this.state.session.value];
+    const bounds = session && wholeBounds(session, this.state.look.value.exaggeration);
+    if (view !== undefined && bounds) this.frame(bounds, view, inputTime);
   }
 
   /** One object in the middle of the picture, from the direction that it is seen from now. */
   goToObject(object: number): void {
-    const bounds = boundsOf(this.state.session.value?.objects[object]?.bounds);
+    const { session, look } = this.state;
+    const bounds = objectBounds(session.value?.objects[object], look.value.exaggeration);
     if (bounds === undefined || this.camera === null) return;
     this.frame(bounds, directionOfView(this.camera), performance.now());
   }
 
   private frame(bounds: Bounds, from: Direction, inputTime: number | undefined): void {
-    const { width, height } = this.canvas.size();
     const fovyDegrees = this.camera?.fovyDegrees ?? 45;
-    this.move(standardCamera(from, bounds, width / Math.max(1, height), fovyDegrees), inputTime);
+    this.move(standardCamera(from, bounds, this.aspect, fovyDegrees), inputTime);
+  }
+
+  private get aspect(): number {
+    const { width, height } = this.canvas.size();
+    return width / Math.max(1, height);
   }
 
   /** Clicks at the middle of the picture, for those without a pointer. */
