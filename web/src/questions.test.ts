@@ -2,7 +2,7 @@
 import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
 import type { Camera } from "./camera/camera";
-import { ViewerPickedSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
+import { ViewerPickedSchema, ViewerProfiledSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
 import { Questions } from "./questions";
 import { State } from "./state";
 
@@ -13,7 +13,8 @@ function measuring() {
   const state = new State();
   state.measuring.set(true);
   let asked = 0;
-  const socket = { pick: (sequence: number) => (asked = sequence) > 0, profile: () => false };
+  const ask = (sequence: number): boolean => (asked = sequence) > 0;
+  const socket = { pick: ask, profile: ask };
   const questions = new Questions(socket, state, () => {});
   const show = (exaggeration: number): void => {
     const picture = { camera, width: 64, height: 36, hidden: [], seen: null, isPacked: false };
@@ -24,7 +25,9 @@ function measuring() {
     const point = { object: 0, position: { x: 1, y: 2, z: 3 }, error: 0.02 };
     questions.picked(create(ViewerPickedSchema, { sequence: BigInt(asked), point }));
   };
-  return { state, show, click, answer };
+  const answerProfile = () =>
+    questions.profiled(create(ViewerProfiledSchema, { sequence: BigInt(asked) }));
+  return { state, questions, show, click, answer, answerProfile };
 }
 
 describe("Questions", () => {
@@ -48,5 +51,17 @@ describe("Questions", () => {
     answer();
     expect(state.pick.value).toMatchObject({ kind: "point", exaggeration: 1 });
     expect(state.measured.value).toEqual([]);
+  });
+
+  it("of a walk are answered once each, earlier ones by nothing", () => {
+    const { questions, answerProfile } = measuring();
+    const answers: string[] = [];
+    for (const name of ["first", "second"])
+      questions.askGround([0, 0, 0], [1, 0, 0], 2, (found) =>
+        answers.push(`${name}: ${found === undefined ? "nothing" : "ground"}`),
+      );
+    expect(answers).toEqual(["first: nothing"]);
+    answerProfile();
+    expect(answers).toEqual(["first: nothing", "second: ground"]);
   });
 });

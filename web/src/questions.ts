@@ -73,17 +73,21 @@ export class Questions {
       state.measured.set([...state.measured.value, pick]);
   }
 
-  /** For a walk; false while a person's profile is asked for, or where it cannot be asked. */
+  /**
+   * For a walk, in place of what it asked before; false while a person's profile is asked for, or
+   * where it cannot be asked.
+   */
   askGround(
     from: Vec3,
     to: Vec3,
     samples: number,
     answered: (answer: ViewerProfiled | undefined) => void,
   ): boolean {
-    if (this.ground !== null || this.state.profile.value?.kind === "asking") return false;
+    if (this.state.profile.value?.kind === "asking") return false;
     const sequence = this.profileSequence + 1;
     if (!this.socket.profile(sequence, from, to, samples, this.hidden)) return false;
     this.profileSequence = sequence;
+    this.groundAnswered(undefined);
     this.ground = { sequence, answered };
     return true;
   }

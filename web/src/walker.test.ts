@@ -90,6 +90,20 @@ describe("A walk", () => {
     expect(cameras).toEqual([]);
   });
 
+  it("that has ended moves nothing, whatever is answered then", async () => {
+    const { walker, cameras, failures } = walking();
+    walker.begin(above);
+    walker.end();
+    walker.begin({ ...above, target: [99, 0, 90] });
+    walker.end();
+    await Promise.resolve();
+    expect(cameras).toEqual([]);
+    expect(failures).toEqual([]);
+    walker.begin(above);
+    await Promise.resolve();
+    expect(cameras.length).toBe(1);
+  });
+
   it("does not take it that there is none where nobody answers", () => {
     const failures: boolean[] = [];
     const walker = new Walker({

@@ -27,6 +27,8 @@ export class Walker {
   eyeHeight = usualEyeHeight;
   private ground: Ground | undefined;
   private isAsking = false;
+  /** How often a question was given up. */
+  private withdrawals = 0;
   private camera: Camera | undefined;
 
   constructor(private readonly events: WalkerEvents) {}
@@ -34,8 +36,7 @@ export class Walker {
   /** Stands where the view looks at, looking level the same way; once the ground is known there. */
   begin({ eye, target, ...rest }: Camera): void {
     this.eyeHeight = usualEyeHeight;
-    this.ground = undefined;
-    this.camera = undefined;
+    this.end();
     const { azimuth } = headingOf(subtract(target, eye));
     const ahead = [Math.cos(azimuth), Math.sin(azimuth), 0] as const;
     const reach = 10 * this.eyeHeight;
@@ -55,6 +56,7 @@ export class Walker {
   end(): void {
     this.camera = undefined;
     this.ground = undefined;
+    this.withdraw();
   }
 
   /** Whether the eye is where the walk has put it: a turned head walks on, a moved one does not. */
@@ -104,13 +106,21 @@ export class Walker {
     return Math.hypot(to[0] - at[0], to[1] - at[1]) < leastLeft * whole;
   }
 
+  /** What was asked for is waited for no more. */
+  private withdraw(): void {
+    this.withdrawals += 1;
+    this.isAsking = false;
+  }
+
   private ask({ eye }: Camera, direction: readonly [number, number, number], then: Answered): void {
     if (this.isAsking) return;
     const size = Math.hypot(direction[0], direction[1]) || 1;
     const reach = (heightsAhead * this.eyeHeight) / size;
     const start = [eye[0], eye[1]] as const;
     const to = [eye[0] + direction[0] * reach, eye[1] + direction[1] * reach] as const;
+    const { withdrawals } = this;
     this.isAsking = this.events.ask(start, to, samples, (ground) => {
+      if (withdrawals !== this.withdrawals) return;
       this.isAsking = false;
       if (ground !== undefined) this.ground = ground;
       then(ground);
