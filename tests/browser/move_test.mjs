@@ -175,6 +175,11 @@ await run("move_test", async (browser, started) => {
     "dragging looks around",
   );
   check(await page.locator("#walk-mode").isVisible(), "and the walk goes on");
+  await page.keyboard.press("]");
+  await browser.until(() => window.eyrie.camera.eye[2] > 100);
+  await page.keyboard.press("\\");
+  await browser.until(() => Math.abs(window.eyrie.camera.eye[2] - 1.7) < 1e-6);
+  check(await page.locator("#walk-mode").isVisible(), "as it does on exaggerated heights");
   const height = looked.eye[2];
   await swipe(
     page,

@@ -147,12 +147,13 @@ export class Viewer implements CameraHolder {
         state.walking.set(false);
         state.notice.set(
           isAnswered
-            ? "There is no ground to stand on in the middle of the picture"
+            ? "There is no ground to stand on there"
             : "The ground cannot be asked for now: try again when pictures come",
         );
       },
     });
     state.walking.watch((isWalking) => this.walkingChanged(isWalking));
+    this.keepWalkerOnGround();
     state.shown.watch((shown) => this.canvas.setFilled(shown?.isPacked === true));
     watchSettings(
       state,
@@ -210,6 +211,16 @@ export class Viewer implements CameraHolder {
       this.walked = this.camera;
     }
     this.sender.request();
+  }
+
+  private keepWalkerOnGround(): void {
+    const { look } = this.state;
+    let [exaggeration, hidden] = [look.value.exaggeration, look.value.hidden];
+    look.watch((now) => {
+      const isSame = now.exaggeration === exaggeration && now.hidden === hidden;
+      ({ exaggeration, hidden } = now);
+      if (!isSame) this.walker.groundChanged();
+    });
   }
 
   move(camera: Camera, inputTime?: number): void {
