@@ -462,6 +462,7 @@ export class Viewer implements CameraHolder {
   /** What was sent while another leads is not answered; who leads now has to say where to. */
   private placeChanged(): void {
     if (this.isWatching) {
+      this.state.walking.set(false);
       this.sender.forgetAll();
     } else if (this.led !== undefined) {
       this.led = undefined;
