@@ -341,6 +341,10 @@ export class Viewer implements CameraHolder {
     return now - (this.sender.waitingSince() ?? now);
   }
 
+  private get waits(): boolean {
+    return this.sender.waitingSince() !== undefined || this.state.connection.value.kind === "lost";
+  }
+
   show(view: SharedView): void {
     applySettings(this.state, view);
     this.leaveOutAbsent();
@@ -489,6 +493,7 @@ export class Viewer implements CameraHolder {
     const seen = {
       exact: isExact,
       fps: this.rate.perSecond(time),
+      waits: this.waits,
       inputToDrawnMilliseconds: this.sender.medianLatency(),
       frozen: this.state.look.value.frozen !== null,
     };
@@ -577,7 +582,9 @@ export class Viewer implements CameraHolder {
     const now = performance.now();
     const numbers = this.state.numbers.value;
     const fps = this.rate.perSecond(now);
-    if (numbers !== null && numbers.fps !== fps) this.state.numbers.set({ ...numbers, fps });
+    const { waits } = this;
+    if (numbers !== null && (numbers.fps !== fps || numbers.waits !== waits))
+      this.state.numbers.set({ ...numbers, fps, waits });
     this.state.stale.set(this.waitingMilliseconds(now) > staleAfter);
   }
 }
