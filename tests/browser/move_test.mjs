@@ -9,6 +9,12 @@ const apart = (a, b) => Math.hypot(...a.map((value, i) => value - b[i]));
 const distance = ({ eye, target }) => apart(eye, target);
 const azimuth = ({ eye, target }) => Math.atan2(eye[1] - target[1], eye[0] - target[0]);
 
+const forward = ({ eye, target }) => target.map((value, i) => value - eye[i]);
+
+/** Whatever moved with the frame that is due has moved. */
+const twoFrames = () =>
+  new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+
 /** Fingers that go straight from their first places to their last ones, by real touch events. */
 async function swipe(page, fingers, steps = 12) {
   const session = await page.context().newCDPSession(page);
@@ -149,6 +155,14 @@ await run("move_test", async (browser, started) => {
   await browser.settled();
   const shown = await camera();
   check(apart(shown.eye, stood.eye) < 1e-9, "nearer the ground than other views may come");
+  const opened = await browser.openAnother(page.url());
+  await opened.waitForFunction(() => window.eyrie?.exact && !window.eyrie.waitingMilliseconds);
+  check(
+    apart(await opened.evaluate(() => window.eyrie.camera.eye), stood.eye) < 1e-9,
+    "which the address leads back to",
+  );
+  await opened.close();
+  await page.bringToFront();
 
   await page.keyboard.press("w", { delay: 600 });
   const walked = await camera();
@@ -161,6 +175,11 @@ await run("move_test", async (browser, started) => {
     "dragging looks around",
   );
   check(await page.locator("#walk-mode").isVisible(), "and the walk goes on");
+  await page.keyboard.press("]");
+  await browser.until(() => window.eyrie.camera.eye[2] > 100);
+  await page.keyboard.press("\\");
+  await browser.until(() => Math.abs(window.eyrie.camera.eye[2] - 1.7) < 1e-6);
+  check(await page.locator("#walk-mode").isVisible(), "as it does on exaggerated heights");
   const height = looked.eye[2];
   await swipe(
     page,
@@ -201,6 +220,25 @@ await run("move_test", async (browser, started) => {
   );
   await page.keyboard.press("Escape");
   check(await page.locator("#walk-mode").isHidden(), "Escape ends the walk");
+  await page.keyboard.press("t");
+  await browser.until(() => Math.abs(window.eyrie.camera.eye[2] - 1.7) < 1e-6);
+  await page.keyboard.press("b");
+  await page.keyboard.press("w", { delay: 300 });
+  await page.evaluate(twoFrames);
+  const recorded = await camera();
+  await page.keyboard.press("b");
+  await page.locator("#notice", { hasText: "of the distance at most" }).waitFor();
+  await page.keyboard.press("Escape");
+  await browser.until(() => Math.abs(window.eyrie.camera.eye[2] - 2) < 1e-6);
+  const left = await camera();
+  check(
+    apart(forward(left), forward(recorded)) < 1e-9,
+    "where it ends the eye is lifted as high as other views are, and looks on the same way",
+  );
+  await page.keyboard.press("y");
+  await page.getByRole("button", { name: "Play", exact: true }).waitFor({ state: "attached" });
+  await browser.settled();
+  check(apart((await camera()).eye, recorded.eye) < 1e-9, "a recorded walk plays on the ground");
   await page.keyboard.press("t");
   await browser.until(() => Math.abs(window.eyrie.camera.eye[2] - 1.7) < 1e-6);
   await page.keyboard.press("2");

@@ -202,6 +202,7 @@ await run("page_test", async (browser, started) => {
   const camera = JSON.stringify(await browser.hook("camera"));
   await server.kill();
   await page.locator("#banner", { hasText: "Connection lost" }).waitFor();
+  await page.locator("#readout", { hasText: /^waiting / }).waitFor();
   await browser.eased();
   check(
     brightness(await browser.picture()) < brightness(live) * 0.7,

@@ -132,10 +132,18 @@ await run("together", async (browser, started) => {
   await second.waitForTimeout(300);
   check((await camera(second)) === turned, "who watches moves nothing");
 
+  await first.focus("#view");
+  await first.keyboard.press("t");
+  await first.waitForFunction(
+    (before) => JSON.stringify(window.eyrie.camera) !== before,
+    turned,
+    patience,
+  );
   frames = [await frame(first), await frame(second)];
   await second.click("#take-lead");
   await says(second, "2 viewers · you lead");
   await says(first, "2 viewers · you watch");
+  check(await first.locator("#walk-mode").isHidden(), "who loses the lead walks no more");
   await exact(second, frames[1]); // now of a window of its own shape
   frames = [await frame(first), await frame(second)];
   await turn(second);

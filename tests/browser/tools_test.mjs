@@ -174,6 +174,21 @@ await run("tools_test", async (browser, started) => {
   const beforeKeys = await cameraNow();
   await page.keyboard.press("ArrowRight");
   check((await cameraNow()) === beforeKeys, "arrows belong to the slider that has the focus");
+  await page.keyboard.press("Escape"); // what was clicked
+  const panel = page.locator("#panel");
+  await panel.evaluate((element) => (element.scrollTop = 0));
+  await panel.focus();
+  for (const key of ["ArrowDown", "Space"]) {
+    const scrolled = await panel.evaluate((element) => element.scrollTop);
+    await page.keyboard.press(key);
+    await page.waitForFunction((by) => document.querySelector("#panel").scrollTop > by, scrolled);
+  }
+  await page.keyboard.press("Home");
+  await page.waitForFunction(() => document.querySelector("#panel").scrollTop === 0);
+  check(
+    (await cameraNow()) === beforeKeys && (await page.locator("#pick").isHidden()),
+    "or scroll the panel while that has it, as Space and Home do,",
+  );
   await page.keyboard.press("+");
   check((await cameraNow()) !== beforeKeys, "and plus to the view,");
   await page.keyboard.press("f");

@@ -13,6 +13,8 @@ const profileSamples = 160;
 
 export class Questions {
   private pickSequence = 0;
+  /** That the picture had which was clicked. */
+  private pickExaggeration = 1;
   private profileSequence = 0;
   /** A walk's question for ground, and who waits for the answer. */
   private ground: {
@@ -23,11 +25,17 @@ export class Questions {
   private turnTo = 0;
 
   constructor(
-    private readonly socket: Socket,
+    private readonly socket: Pick<Socket, "pick" | "profile">,
     private readonly state: State,
     /** Turns the camera to a point. */
     private readonly turn: (to: Vec3) => void,
-  ) {}
+  ) {
+    // Where heights are drawn otherwise, measured points lie elsewhere.
+    state.shown.watch((shown) => {
+      const [first] = state.measured.value;
+      if (first !== undefined && first.exaggeration !== shown?.exaggeration) state.measured.set([]);
+    });
+  }
 
   private get hidden(): readonly number[] {
     return this.state.look.value.hidden;
@@ -48,6 +56,7 @@ export class Questions {
       return false;
     }
     this.pickSequence = sequence;
+    this.pickExaggeration = shown.exaggeration;
     if (turns) this.turnTo = sequence;
     this.state.pick.set({ kind: "asking" });
     return true;
@@ -56,25 +65,29 @@ export class Questions {
   picked(answer: ViewerPicked): void {
     const { state } = this;
     if (Number(answer.sequence) !== this.pickSequence || state.pick.value === null) return;
-    const exaggeration = state.shown.value?.exaggeration ?? 1;
-    const pick = pickOf(answer, state.session.value?.objectNames ?? [], exaggeration);
+    const pick = pickOf(answer, state.session.value?.objectNames ?? [], this.pickExaggeration);
     state.pick.set(pick);
     if (pick.kind !== "point") return;
     if (this.turnTo === this.pickSequence) this.turn(pick.position);
-    else if (state.measuring.value) state.measured.set([...state.measured.value, pick]);
+    else if (state.measuring.value && pick.exaggeration === state.shown.value?.exaggeration)
+      state.measured.set([...state.measured.value, pick]);
   }
 
-  /** For a walk; false while a person's profile is asked for, or where it cannot be asked. */
+  /**
+   * For a walk, in place of what it asked before; false while a person's profile is asked for, or
+   * where it cannot be asked.
+   */
   askGround(
     from: Vec3,
     to: Vec3,
     samples: number,
     answered: (answer: ViewerProfiled | undefined) => void,
   ): boolean {
-    if (this.ground !== null || this.state.profile.value?.kind === "asking") return false;
+    if (this.state.profile.value?.kind === "asking") return false;
     const sequence = this.profileSequence + 1;
     if (!this.socket.profile(sequence, from, to, samples, this.hidden)) return false;
     this.profileSequence = sequence;
+    this.groundAnswered(undefined);
     this.ground = { sequence, answered };
     return true;
   }

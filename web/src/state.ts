@@ -88,6 +88,8 @@ export interface Numbers {
   limitedBy: string;
   /** Frames drawn in the last second. */
   fps: number;
+  /** A view has no picture yet, or the connection is lost. */
+  waits: boolean;
   /** From an input to the picture that shows it: median of the last ones; NaN before any. */
   inputToDrawnMilliseconds: number;
   /** It shows a cut that was chosen for another camera. */

@@ -10,11 +10,13 @@ import type { DistanceLimits } from "./camera/orbit";
 import { distanceLimits, lookAt } from "./camera/orbit";
 import type { Point } from "./camera/touch";
 import type { Bounds, Direction } from "./camera/standard";
-import { directionOfView, homeIn, standardCamera, standardViews } from "./camera/standard";
+import { directionOfView, standardCamera, standardViews } from "./camera/standard";
+import { seenFrom } from "./camera/walk";
+import { homeOf, objectBounds, wholeBounds } from "./drawn_bounds";
 import type { Frame, SessionState } from "./protocol/messages";
 import type { LedView } from "./protocol/led_view";
 import { ledViewOf } from "./protocol/led_view";
-import { boundsOf, cameraOf } from "./protocol/messages";
+import { cameraOf } from "./protocol/messages";
 import { Socket } from "./protocol/socket";
 import type { Output } from "./output";
 import { isPacked, queryOf } from "./output";
@@ -90,6 +92,10 @@ export class Viewer implements CameraHolder {
   /** What a program has asked for in this page's place, as text, once it has been adopted. */
   private followed = "";
   private readonly scene = new ShownScene();
+  /** The camera with which a walk has ended. */
+  private walked: Camera | null = null;
+  /** The last camera of a flight. */
+  private flown: Camera | null = null;
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -141,12 +147,13 @@ export class Viewer implements CameraHolder {
         state.walking.set(false);
         state.notice.set(
           isAnswered
-            ? "There is no ground to stand on in the middle of the picture"
+            ? "There is no ground to stand on there"
             : "The ground cannot be asked for now: try again when pictures come",
         );
       },
     });
     state.walking.watch((isWalking) => this.walkingChanged(isWalking));
+    this.keepWalkerOnGround();
     state.shown.watch((shown) => this.canvas.setFilled(shown?.isPacked === true));
     watchSettings(
       state,
@@ -199,8 +206,21 @@ export class Viewer implements CameraHolder {
 
   private walkingChanged(isWalking: boolean): void {
     if (isWalking && this.camera !== null) this.walker.begin(this.camera);
-    else this.walker.end();
+    else {
+      this.walker.end();
+      this.walked = this.camera;
+    }
     this.sender.request();
+  }
+
+  private keepWalkerOnGround(): void {
+    const { look } = this.state;
+    let [exaggeration, hidden] = [look.value.exaggeration, look.value.hidden];
+    look.watch((now) => {
+      const isSame = now.exaggeration === exaggeration && now.hidden === hidden;
+      ({ exaggeration, hidden } = now);
+      if (!isSame) this.walker.groundChanged();
+    });
   }
 
   move(camera: Camera, inputTime?: number): void {
@@ -223,32 +243,41 @@ export class Viewer implements CameraHolder {
     this.sender.sendUnlessWaiting();
   }
 
+  /** To a camera of a flight, which may have been recorded walking: nothing lifts it. */
+  moveAlong(camera: Camera): void {
+    this.flown = camera;
+    this.move(camera);
+  }
+
   goHome(inputTime?: number): void {
     const session = this.state.session.value;
-    const [home, bounds] = [cameraOf(session?.home), boundsOf(session?.sceneBounds)];
-    if (home === undefined || bounds === undefined) return;
-    const { width, height } = this.canvas.size();
-    this.move(homeIn(home, bounds, width / Math.max(1, height)), inputTime);
+    const home = session && homeOf(session, this.state.look.value.exaggeration, this.aspect);
+    if (home) this.move(home, inputTime);
   }
 
   /** From where maps and drawings show things; `index` in standardViews. */
   goTo(index: number, inputTime?: number): void {
-    const view = standardViews[index];
-    const bounds = boundsOf(this.state.session.value?.sceneBounds);
-    if (view !== undefined && bounds !== undefined) this.frame(bounds, view, inputTime);
+    const [view, session] = [standardViews[index], this.state.session.value];
+    const bounds = session && wholeBounds(session, this.state.look.value.exaggeration);
+    if (view !== undefined && bounds) this.frame(bounds, view, inputTime);
   }
 
   /** One object in the middle of the picture, from the direction that it is seen from now. */
   goToObject(object: number): void {
-    const bounds = boundsOf(this.state.session.value?.objects[object]?.bounds);
+    const { session, look } = this.state;
+    const bounds = objectBounds(session.value?.objects[object], look.value.exaggeration);
     if (bounds === undefined || this.camera === null) return;
     this.frame(bounds, directionOfView(this.camera), performance.now());
   }
 
   private frame(bounds: Bounds, from: Direction, inputTime: number | undefined): void {
-    const { width, height } = this.canvas.size();
     const fovyDegrees = this.camera?.fovyDegrees ?? 45;
-    this.move(standardCamera(from, bounds, width / Math.max(1, height), fovyDegrees), inputTime);
+    this.move(standardCamera(from, bounds, this.aspect, fovyDegrees), inputTime);
+  }
+
+  private get aspect(): number {
+    const { width, height } = this.canvas.size();
+    return width / Math.max(1, height);
   }
 
   /** Clicks at the middle of the picture, for those without a pointer. */
@@ -286,7 +315,7 @@ export class Viewer implements CameraHolder {
   sharedView(): SharedView | null {
     if (this.camera === null) return null;
     const settings = settingsOf(this.state);
-    return { camera: this.camera, ...settings, look: { ...settings.look, frozen: null } };
+    return { camera: this.camera, ...settings, look: { ...this.seenLook(), frozen: null } };
   }
 
   /** Which picture is seen: who watches names one in the address, or sees what the leader does. */
@@ -310,6 +339,10 @@ export class Viewer implements CameraHolder {
   /** How long the oldest view has waited at `now` that no picture has shown yet; 0: none waits. */
   waitingMilliseconds(now: number): number {
     return now - (this.sender.waitingSince() ?? now);
+  }
+
+  private get waits(): boolean {
+    return this.sender.waitingSince() !== undefined || this.state.connection.value.kind === "lost";
   }
 
   show(view: SharedView): void {
@@ -350,10 +383,14 @@ export class Viewer implements CameraHolder {
     };
   }
 
-  /** Nothing lifts a walk out of the ground: it is above it, and nearer than the server would let. */
+  /**
+   * Nothing lifts a walk out of the ground, which is nearer to it than the server would let, nor what
+   * is shown of a flight.
+   */
   private seenLook(): Look {
     const look = this.state.look.value;
-    return this.isWalking ? { ...look, underground: true } : look;
+    const isFlown = this.camera !== null && this.camera === this.flown;
+    return this.isWalking || isFlown ? { ...look, underground: true } : look;
   }
 
   /** Whoever leads, this page shows what its address says; where that says nothing, what is led. */
@@ -429,6 +466,7 @@ export class Viewer implements CameraHolder {
   /** What was sent while another leads is not answered; who leads now has to say where to. */
   private placeChanged(): void {
     if (this.isWatching) {
+      this.state.walking.set(false);
       this.sender.forgetAll();
     } else if (this.led !== undefined) {
       this.led = undefined;
@@ -455,6 +493,7 @@ export class Viewer implements CameraHolder {
     const seen = {
       exact: isExact,
       fps: this.rate.perSecond(time),
+      waits: this.waits,
       inputToDrawnMilliseconds: this.sender.medianLatency(),
       frozen: this.state.look.value.frozen !== null,
     };
@@ -526,7 +565,11 @@ export class Viewer implements CameraHolder {
   private adoptLifted(): void {
     const { camera, sequence } = this.lifted;
     const isNewest = this.sender.isNewest(sequence);
-    if (camera !== undefined && isNewest && !this.controls.isDragging) this.camera = camera;
+    if (camera === undefined || !isNewest || this.controls.isDragging) return;
+    // What a walk looks at is near: with the eye alone lifted one would look down at it.
+    if (this.camera !== null && this.camera === this.walked)
+      this.moveTo(seenFrom(this.camera, camera.eye));
+    else this.camera = camera;
   }
 
   /** Holds the cut as this camera has it, or lets it follow the view again. */
@@ -539,7 +582,9 @@ export class Viewer implements CameraHolder {
     const now = performance.now();
     const numbers = this.state.numbers.value;
     const fps = this.rate.perSecond(now);
-    if (numbers !== null && numbers.fps !== fps) this.state.numbers.set({ ...numbers, fps });
+    const { waits } = this;
+    if (numbers !== null && (numbers.fps !== fps || numbers.waits !== waits))
+      this.state.numbers.set({ ...numbers, fps, waits });
     this.state.stale.set(this.waitingMilliseconds(now) > staleAfter);
   }
 }

@@ -12,6 +12,7 @@ const isLand = (x: number): boolean => Math.abs(x) < 60;
 
 /** A walker whose ground is answered after so many steps. */
 function walking(delay = 0) {
+  const drawn = { exaggeration: 1, isShown: true };
   const cameras: Camera[] = [];
   const waiting: { steps: number; answer: () => void }[] = [];
   const failures: boolean[] = [];
@@ -22,7 +23,8 @@ function walking(delay = 0) {
       const heights = Array.from({ length: samples }, (_, i) => {
         const share = i / (samples - 1);
         const [x, y] = [0, 1].map((k) => (from[k] ?? 0) + ((to[k] ?? 0) - (from[k] ?? 0)) * share);
-        return isLand(x ?? 0) ? hill(x ?? 0, y ?? 0) : undefined;
+        const isGround = drawn.isShown && isLand(x ?? 0);
+        return isGround ? drawn.exaggeration * hill(x ?? 0, y ?? 0) : undefined;
       });
       const ground: Ground = { from, to, heights };
       if (delay === 0) queueMicrotask(() => answered(ground));
@@ -37,7 +39,7 @@ function walking(delay = 0) {
     await Promise.resolve();
   };
   const last = (): Camera => cameras[cameras.length - 1] ?? above;
-  return { walker, cameras, step, last, failures };
+  return { walker, drawn, cameras, step, last, failures };
 }
 
 describe("A walk", () => {
@@ -88,6 +90,41 @@ describe("A walk", () => {
     await Promise.resolve();
     expect(failures).toEqual([true]);
     expect(cameras).toEqual([]);
+  });
+
+  it("stands on the ground as it is drawn, however often that changes", async () => {
+    const { walker, drawn, step, last, failures } = walking();
+    walker.begin(above);
+    await Promise.resolve();
+    for (const exaggeration of [3, 2]) {
+      drawn.exaggeration = exaggeration;
+      walker.groundChanged();
+    }
+    await Promise.resolve();
+    expect(last().eye).toEqual([0, 0, 2 * hill(0, 0) + usualEyeHeight]);
+    expect(last().target[2]).toBe(last().eye[2]);
+    for (let i = 0; i < 20; ++i) await step("KeyW");
+    const [x, y, z] = last().eye;
+    expect(y).toBeGreaterThan(1);
+    expect(Math.abs(z - usualEyeHeight - 2 * hill(x, y))).toBeLessThan(0.6);
+    drawn.isShown = false;
+    walker.groundChanged();
+    await Promise.resolve();
+    expect(failures).toEqual([true]);
+  });
+
+  it("that has ended moves nothing, whatever is answered then", async () => {
+    const { walker, cameras, failures } = walking();
+    walker.begin(above);
+    walker.end();
+    walker.begin({ ...above, target: [99, 0, 90] });
+    walker.end();
+    await Promise.resolve();
+    expect(cameras).toEqual([]);
+    expect(failures).toEqual([]);
+    walker.begin(above);
+    await Promise.resolve();
+    expect(cameras.length).toBe(1);
   });
 
   it("does not take it that there is none where nobody answers", () => {

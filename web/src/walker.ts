@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Walks: asks for the ground ahead, in the data at their finest, and moves the eye over it.
-import type { Camera } from "./camera/camera";
+import type { Camera, Vec3 } from "./camera/camera";
 import { headingOf, subtract } from "./camera/camera";
 import type { Keys } from "./camera/fly";
 import type { Ground } from "./camera/walk";
@@ -23,10 +23,18 @@ const heightsAhead = 24;
 /** More is asked for when less than this share of it is left. */
 const leastLeft = 0.6;
 
+/** Level, of length 1. */
+function aheadOf({ eye, target }: Pick<Camera, "eye" | "target">): Vec3 {
+  const { azimuth } = headingOf(subtract(target, eye));
+  return [Math.cos(azimuth), Math.sin(azimuth), 0];
+}
+
 export class Walker {
   eyeHeight = usualEyeHeight;
   private ground: Ground | undefined;
   private isAsking = false;
+  /** How often a question was given up. */
+  private withdrawals = 0;
   private camera: Camera | undefined;
 
   constructor(private readonly events: WalkerEvents) {}
@@ -34,10 +42,8 @@ export class Walker {
   /** Stands where the view looks at, looking level the same way; once the ground is known there. */
   begin({ eye, target, ...rest }: Camera): void {
     this.eyeHeight = usualEyeHeight;
-    this.ground = undefined;
-    this.camera = undefined;
-    const { azimuth } = headingOf(subtract(target, eye));
-    const ahead = [Math.cos(azimuth), Math.sin(azimuth), 0] as const;
+    this.end();
+    const ahead = aheadOf({ eye, target });
     const reach = 10 * this.eyeHeight;
     const there: Camera = {
       ...rest,
@@ -55,6 +61,21 @@ export class Walker {
   end(): void {
     this.camera = undefined;
     this.ground = undefined;
+    this.withdraw();
+  }
+
+  /** Stands on the ground as it is drawn now, once that is known. */
+  groundChanged(): void {
+    if (this.camera === undefined) return;
+    this.withdraw();
+    this.ground = undefined;
+    this.ask(this.camera, aheadOf(this.camera), (ground) => {
+      if (ground === undefined || this.camera === undefined) return; // with the next step, then
+      const [x, y] = this.camera.eye;
+      const z = groundAt(ground, [x, y], this.eyeHeight);
+      if (typeof z === "number") this.stand(this.camera, [x, y], z, undefined);
+      else this.events.failed(true);
+    });
   }
 
   /** Whether the eye is where the walk has put it: a turned head walks on, a moved one does not. */
@@ -104,13 +125,21 @@ export class Walker {
     return Math.hypot(to[0] - at[0], to[1] - at[1]) < leastLeft * whole;
   }
 
-  private ask({ eye }: Camera, direction: readonly [number, number, number], then: Answered): void {
+  /** What was asked for is waited for no more. */
+  private withdraw(): void {
+    this.withdrawals += 1;
+    this.isAsking = false;
+  }
+
+  private ask({ eye }: Camera, direction: Vec3, then: Answered): void {
     if (this.isAsking) return;
     const size = Math.hypot(direction[0], direction[1]) || 1;
     const reach = (heightsAhead * this.eyeHeight) / size;
     const start = [eye[0], eye[1]] as const;
     const to = [eye[0] + direction[0] * reach, eye[1] + direction[1] * reach] as const;
+    const { withdrawals } = this;
     this.isAsking = this.events.ask(start, to, samples, (ground) => {
+      if (withdrawals !== this.withdrawals) return;
       this.isAsking = false;
       if (ground !== undefined) this.ground = ground;
       then(ground);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From pointer, wheel and keys to a camera. The geometry is in orbit.ts, fly.ts and touch.ts.
 import type { Camera } from "./camera";
-import { isText, isTyping } from "./typing";
+import { isScrolled, isText, isTyping } from "./typing";
 import type { Keys } from "./fly";
 import { fly, isFlyKey, look } from "./fly";
 import type { DistanceLimits } from "./orbit";
@@ -249,11 +249,12 @@ export class Controls {
         this.zoomBy(1 / zoomPerKey, 0, 0, time);
         return true;
       default:
-        return !isTyping(event.target) && this.placeKeyDown(event);
+        if (isTyping(event.target) || isScrolled(event.target)) return false;
+        return this.placeKeyDown(event);
     }
   }
 
-  /** Keys that move a slider, too, or choose among radio buttons. */
+  /** Keys that move a slider, too, choose among radio buttons, or scroll the panel. */
   private placeKeyDown(event: KeyboardEvent): boolean {
     if (event.key === "Home") {
       this.holder.goHome(event.timeStamp);

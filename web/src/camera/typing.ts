@@ -14,6 +14,10 @@ export const isText = (target: EventTarget | null): boolean =>
 export const isPressed = (target: EventTarget | null): boolean =>
   isIn(target, "button, summary, input, a");
 
+/** What arrows, the space bar and Home scroll while it has the focus itself. */
+export const isScrolled = (target: EventTarget | null): boolean =>
+  target instanceof Element && target.matches(".panel");
+
 /** Where arrows belong to what they change, too. */
 export const isTyping = (target: EventTarget | null): boolean =>
   isIn(target, "input, select, textarea, dialog");

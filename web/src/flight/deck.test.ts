@@ -3,6 +3,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import type { Camera } from "../camera/camera";
 import type { Stage } from "./deck";
 import { FlightDeck } from "./deck";
+import { withKey } from "./flight";
 
 const cameraAt = (x: number): Camera => ({
   eye: [x, 0, 5],
@@ -21,6 +22,9 @@ class StageOfTest implements Stage {
     if (this.isWatching) return;
     this.camera = camera;
     this.movements += 1;
+  }
+  moveAlong(camera: Camera): void {
+    this.move(camera);
   }
   exactNow(): Blob | undefined {
     return this.exact;
@@ -71,6 +75,19 @@ describe("A flight deck", () => {
     deck.stop();
     expect(deck.flight.value).toEqual(kept);
     expect(told).toHaveBeenLastCalledWith("Nothing moved: the flight stays as it was");
+  });
+
+  it("adds keys to what it records, which ends with them", () => {
+    deck.load({ name: "", keys: [{ seconds: 0, camera: cameraAt(30) }] });
+    deck.record();
+    for (let x = 1; x <= 10; ++x) {
+      stage.move(cameraAt(x));
+      frame();
+    }
+    deck.edit((keys) => withKey(keys, { seconds: 99, camera: cameraAt(-1) }));
+    expect(deck.activity.value.kind).toBe("idle");
+    const places = deck.flight.value.keys.map(({ camera }) => camera.eye[0]);
+    expect([places[0], ...places.slice(-2)]).toEqual([0, 10, -1]);
   });
 
   it("plays until a hand steers", () => {

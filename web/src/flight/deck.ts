@@ -12,12 +12,13 @@ import { ZipWriter } from "./zip";
 /** What of the viewer a flight needs. */
 export interface Stage {
   readonly camera: Camera | null;
-  /** Counts up with each call of move(), whoever calls it. */
+  /** Counts up with each movement, whoever makes it. */
   readonly movements: number;
   readonly pictureSize: Size;
-  /** Another moves the view: move() does nothing. */
+  /** Another moves the view: moveAlong() does nothing. */
   readonly isWatching: boolean;
-  move(camera: Camera): void;
+  /** Shows a camera of the flight. */
+  moveAlong(camera: Camera): void;
   /** The picture of the newest view, once it is exact. */
   exactNow(): Blob | undefined;
 }
@@ -77,8 +78,12 @@ export class FlightDeck {
     this.seconds.set(0);
   }
 
-  edit(keys: readonly FlightKey[]): void {
+  /** `by` is given the keys that there are once whatever went on has ended. */
+  edit(by: (keys: readonly FlightKey[]) => readonly FlightKey[]): void {
     this.stop();
+    const before = this.flight.value.keys;
+    const keys = by(before);
+    if (keys === before) return;
     this.flight.set({ ...this.flight.value, keys });
     this.seconds.set(Math.min(this.seconds.value, this.length));
   }
@@ -93,7 +98,7 @@ export class FlightDeck {
   private show(seconds: number): void {
     this.seconds.set(seconds);
     if (this.flight.value.keys.length === 0) return;
-    this.stage.move(cameraAt(this.flight.value, seconds));
+    this.stage.moveAlong(cameraAt(this.flight.value, seconds));
     this.expected = this.stage.movements;
   }
 

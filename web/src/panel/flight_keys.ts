@@ -52,20 +52,27 @@ export function keyList(
     seconds.step = "0.1";
     seconds.value = String(Number(key.seconds.toFixed(3)));
     seconds.ariaLabel = `Seconds of ${name}`;
-    seconds.addEventListener("change", () => {
-      const moved = withTime(keysNow(), index, seconds.valueAsNumber);
-      if (moved !== undefined) return deck.edit(moved);
-      state.notice.set("A key has a time of its own, in seconds");
-      seconds.value = String(Number(key.seconds.toFixed(3)));
-    });
+    // A recording that ends with an edit has other keys than this one.
+    const edit = (by: (keys: readonly FlightKey[], at: number) => readonly FlightKey[]): void =>
+      deck.edit((keys) => (keys.includes(key) ? by(keys, keys.indexOf(key)) : keys));
+    seconds.addEventListener("change", () =>
+      edit((keys, at) => {
+        const moved = withTime(keys, at, seconds.valueAsNumber);
+        if (moved !== undefined) return moved;
+        state.notice.set("A key has a time of its own, in seconds");
+        seconds.value = String(Number(key.seconds.toFixed(3)));
+        return keys;
+      }),
+    );
     const show = button("Show", `Show ${name}`, () =>
       deck.seek(key.seconds - (keysNow()[0]?.seconds ?? 0)),
     );
     const replace = button("Replace", `Let ${name} show what is seen now`, () => {
-      if (viewer.camera !== null) deck.edit(withCamera(keysNow(), index, viewer.camera));
+      const { camera } = viewer;
+      if (camera !== null) edit((keys, at) => withCamera(keys, at, camera));
     });
     const remove = button("×", `Remove ${name}`, () => {
-      deck.edit(withoutKey(keysNow(), index));
+      edit(withoutKey);
       const next = rows.querySelectorAll<HTMLElement>(".flight-key .small:last-child");
       (next[Math.min(index, next.length - 1)] ?? add).focus();
     });
@@ -83,10 +90,13 @@ export function keyList(
   };
   const addKey = (): void => {
     open();
-    if (viewer.camera === null) return;
     const { camera } = viewer;
-    const seconds = timeOfNewKey(keysNow(), deck.seconds.value);
-    deck.edit(withKey(keysNow(), { seconds, camera }));
+    if (camera === null) return;
+    let seconds = 0;
+    deck.edit((keys) => {
+      seconds = timeOfNewKey(keys, deck.seconds.value);
+      return withKey(keys, { seconds, camera });
+    });
     deck.seconds.set(seconds - (keysNow()[0]?.seconds ?? 0));
   };
   const add = button("Add key", "Let the flight show, at this time, what is seen now (N)", addKey);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-import { isPressed, isText } from "../camera/typing";
+import { isPressed, isScrolled, isText } from "../camera/typing";
 
 /** Calls what belongs to a key, by KeyboardEvent.key in lower case, wherever no text is edited. */
 export function onKeys(actions: Readonly<Record<string, (time: number) => void>>): void {
   window.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.repeat) return;
     const key = event.key.toLowerCase();
-    // Space presses what has the focus.
-    if (key === " " && isPressed(event.target)) return;
+    // Space presses, or scrolls, what has the focus.
+    if (key === " " && (isPressed(event.target) || isScrolled(event.target))) return;
     const action = isText(event.target) || !Object.hasOwn(actions, key) ? undefined : actions[key];
     if (action === undefined) return;
     event.preventDefault();

@@ -21,6 +21,12 @@ export function sentText({
   return tiles > 1 ? `JPEG ${quality} in ${tiles} tiles` : `JPEG ${quality}`;
 }
 
+/** How pictures come. */
+export function frameText({ fps, waits }: Pick<Numbers, "fps" | "waits">, unit: string): string {
+  if (fps > 0) return `${fps} ${unit}`;
+  return waits ? "waiting" : "at rest";
+}
+
 interface Row {
   name: string;
   title: string;
@@ -31,7 +37,7 @@ const rows: readonly Row[] = [
   {
     name: "Frames",
     title: "Drawn in the last second; none are made while nothing changes",
-    text: ({ fps }) => (fps === 0 ? "at rest" : `${fps} / s`),
+    text: (numbers) => frameText(numbers, "/ s"),
   },
   {
     name: "Input to drawn",

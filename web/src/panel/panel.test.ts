@@ -191,6 +191,7 @@ const numbers: Numbers = {
   renderMilliseconds: 1,
   limitedBy: "",
   fps: 1,
+  waits: false,
   inputToDrawnMilliseconds: 1,
   frozen: false,
   parts: [],
@@ -276,6 +277,7 @@ describe("the readout", () => {
     });
     const atRest = { ...numbers, fps: 0, inputToDrawnMilliseconds: NaN, exact: true };
     expect(readoutOf(atRest, 0)).toMatchObject({ speed: "at rest", sent: "exact" });
+    expect(readoutOf({ ...atRest, waits: true }, 0).speed).toBe("waiting");
   });
 
   it("warns of an error that is not the one asked for, and of data that are missing", () => {

@@ -5,7 +5,7 @@ import type { Numbers, State } from "../state";
 import { bandwidth } from "../view/history";
 import { byId, make, setText } from "./element";
 import { milliseconds, pixels } from "./format";
-import { sentText } from "./numbers";
+import { frameText, sentText } from "./numbers";
 import { tauHint } from "./quality";
 
 const second = 1000;
@@ -21,7 +21,7 @@ export interface Readout {
 export function readoutOf(numbers: Numbers, bitsPerSecond: number): Readout {
   const { fps, inputToDrawnMilliseconds: late, tauAchieved, complete } = numbers;
   const speed = [
-    fps === 0 ? "at rest" : `${fps} fps`,
+    frameText(numbers, "fps"),
     ...(Number.isNaN(late) ? [] : [milliseconds(late)]),
     ...(fps === 0 ? [] : [`${(bitsPerSecond / 1e6).toFixed(1)} Mbit/s`]),
   ];

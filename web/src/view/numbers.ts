@@ -5,7 +5,7 @@ import type { Numbers } from "../state";
 import { limitingStage } from "./measure";
 
 /** What the page knows of a frame beside its message. */
-export type Seen = Pick<Numbers, "exact" | "fps" | "inputToDrawnMilliseconds" | "frozen">;
+export type Seen = Pick<Numbers, "exact" | "fps" | "waits" | "inputToDrawnMilliseconds" | "frozen">;
 
 export function numbersOf(frame: Frame, seen: Seen, limitedBefore: string): Numbers {
   const { statistics } = frame;

@@ -89,6 +89,20 @@ describe("ViewSender", () => {
     expect(sender.isNewest(1)).toBe(true);
   });
 
+  it("takes no view for the newest that was sent before the connection was lost", () => {
+    const { sender, server } = sending();
+    sender.request();
+    nextFrame();
+    sender.drawn(1, performance.now());
+    expect(sender.isNewest(1)).toBe(true);
+    sender.lost();
+    server.accepts = server.isConnected = false;
+    server.tau = 2;
+    sender.request();
+    nextFrame();
+    expect(sender.isNewest(1)).toBe(false);
+  });
+
   it("knows what a picture shows until a later one is shown", () => {
     const { sender, server } = sending();
     for (const tau of [1, 2, 3]) {

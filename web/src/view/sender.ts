@@ -48,9 +48,9 @@ export class ViewSender {
     if (this.waitingSince() === undefined) this.sendNow();
   }
 
-  /** Whether no newer view than that was sent or asked for. */
+  /** Whether no newer view than that was sent or asked for, nor could be on a lost connection. */
   isNewest(sequence: number | undefined): boolean {
-    return sequence === this.sequence && this.sendAt === undefined;
+    return this.content !== "" && sequence === this.sequence && this.sendAt === undefined;
   }
 
   /** A frame of that view is on the canvas. */

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the scene and its objects reach as they are drawn: with the heights of terrain exaggerated,
+// unlike what the server says of them.
+import type { Camera } from "./camera/camera";
+import type { Bounds } from "./camera/standard";
+import { directionOfView, homeIn, standardCamera } from "./camera/standard";
+import type { ObjectState, SessionState } from "./protocol/messages";
+import { boundsOf, cameraOf, ObjectKind } from "./protocol/messages";
+
+type Scene = Pick<SessionState, "home" | "sceneBounds" | "objects">;
+
+const isTerrain = ({ kind }: ObjectState): boolean => kind === ObjectKind.TERRAIN;
+
+/** Heights of terrain are taken from 0, which is right where its scene does not move or scale it. */
+export function objectBounds(
+  object: ObjectState | undefined,
+  exaggeration: number,
+): Bounds | undefined {
+  const bounds = boundsOf(object?.bounds);
+  if (object === undefined || bounds === undefined || !isTerrain(object)) return bounds;
+  const [x, y, z] = bounds.min;
+  const [right, back, top] = bounds.max;
+  const heights = [exaggeration * z, exaggeration * top];
+  return { min: [x, y, Math.min(...heights)], max: [right, back, Math.max(...heights)] };
+}
+
+/** Of all objects, hidden ones as well; what the server says where it says nothing of objects. */
+export function wholeBounds(scene: Scene, exaggeration: number): Bounds | undefined {
+  const all = scene.objects.flatMap((object) => objectBounds(object, exaggeration) ?? []);
+  if (exaggeration === 1 || all.length === 0) return boundsOf(scene.sceneBounds);
+  const each = (of: (...values: number[]) => number, end: "min" | "max") =>
+    ([0, 1, 2] as const).map((i) => of(...all.map((bounds) => bounds[end][i])));
+  const [x = 0, y = 0, z = 0] = each(Math.min, "min");
+  const [right = 0, back = 0, top = 0] = each(Math.max, "max");
+  return { min: [x, y, z], max: [right, back, top] };
+}
+
+/** All of the scene in a picture of any shape, from where the server shows it first. */
+export function homeOf(scene: Scene, exaggeration: number, aspect: number): Camera | undefined {
+  const [home, bounds] = [cameraOf(scene.home), wholeBounds(scene, exaggeration)];
+  if (home === undefined || bounds === undefined) return undefined;
+  const isAsServed = exaggeration === 1 || !scene.objects.some(isTerrain);
+  if (isAsServed) return homeIn(home, bounds, aspect);
+  return standardCamera(directionOfView(home), bounds, aspect, home.fovyDegrees);
+}
