@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "coordinator/compound/equalizer/balancer.h"
 #include "coordinator/compound/equalizer/children.h"
@@ -10,8 +12,9 @@ namespace eyrie::equalizer {
 
 /// Shares out a compound's picture or range between its children as Load does, but knows less: each
 /// cut is moved by what the two sides of it took in the last frame and no more, as if load were
-/// even on either. Pictures are cut by turns across and along. What a destination assembles, and
-/// where parts were covered, does not count. The tree equalizer of Equalizer.
+/// even on either. With frames in flight cuts wait for the first frame that they were in: what one
+/// before it took belongs to others. Pictures are cut by turns across and along. What a destination
+/// assembles, and where parts were covered, does not count. The tree equalizer of Equalizer.
 class Tree final : public Balancer {
 public:
     Tree(const config::Compound& written, std::size_t position, const Work& work);
@@ -23,8 +26,6 @@ public:
     std::unique_ptr<Balancer> clone() const override { return std::make_unique<Tree>(*this); }
 
 private:
-    double shareBefore(const SplitTree::Wish& wish) const;
-    Area around(std::size_t first, std::size_t end) const;
     double sum(std::size_t first, std::size_t end, const std::vector<double>& values) const;
 
     const std::size_t position_;
@@ -33,7 +34,8 @@ private:
     SplitTree tree_;
     std::vector<double> resources_;  ///< of the last frame planned, by child
     std::vector<double> costs_;      ///< of the last frame recorded that is yet to be answered
-    std::vector<Area> parts_;        ///< that they had in that frame, of the whole
+    std::vector<Area> parts_;        ///< of the last frame planned, by child
+    std::uint64_t since_ = 0;        ///< the first frame planned with these
     double imbalance_ = 0;
 };
 
