@@ -406,5 +406,23 @@ TEST_F(ImageryDraw, KeepsWithinTheDevicesMemoryByCoarserTexels) {
     EXPECT_EQ(std::count(result.image.colour.begin(), result.image.colour.end(), kBackground), 0);
 }
 
+/// The eye is within the terrain's box, where no finite error is promised.
+TEST_F(ImageryDraw, ShowsTheTopPictureWhereMemoryHoldsNoOther) {
+    terrain::HeightGrid grid = plain(193, 129, 10);
+    for (std::int32_t j = 0; j < grid.rows; ++j)
+        for (std::int32_t i = 0; i < grid.columns; ++i) grid.row(j)[i] += static_cast<float>(i);
+    import(grid, 10, 1.25, pattern);
+    fabric::Camera camera;
+    camera.eye = file_->index().bounds().centre() + fabric::Vec3(0, 0, 30);
+    camera.target = camera.eye + fabric::Vec3(100, 0, -20);
+    RendererOptions options;
+    options.memoryBytes = open(file_->path())->memory().deviceBytes + 1000;  // of the top's
+    const auto renderer = open(file_->path(), options);
+    const ChannelResult result = draw(*renderer, camera);
+    EXPECT_TRUE(result.statistics.complete);
+    EXPECT_EQ(result.statistics.nodes, 1U);
+    EXPECT_LE(renderer->memory().deviceBytes, options.memoryBytes);
+}
+
 }  // namespace eyrie
 }  // namespace eyrie
