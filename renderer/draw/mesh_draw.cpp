@@ -85,7 +85,11 @@ public:
         return choice_.viewTriangles(request);
     }
     double viewWork(const CutRequest& request) override { return choice_.viewWork(request); }
-    Cut selectCut(const CutRequest& request) override { return choice_.select(request); }
+    Cut selectCut(const CutRequest& request) override {
+        Cut cut = choice_.select(request);
+        countDamagedImages(cut);
+        return cut;
+    }
     double errorPixels(const CutRequest&, occlusion::HiddenGround*) override {
         return choice_.errorPixels();
     }
@@ -99,6 +103,7 @@ public:
     }
 
 private:
+    void countDamagedImages(Cut& cut) const;
     void defineVertexFormat();
     void source(const DeviceNode& node) const;
     void bind(const FrameState& frame) const;
@@ -135,6 +140,21 @@ private:
     BoxLines boxLines_;
     MeshChoice choice_;
 };
+
+/// Those that pieces have, as pages that cannot be read.
+void MeshDrawable::countDamagedImages(Cut& cut) const {
+    for (const std::int32_t image : textures_.damaged()) {
+        const bool isMissing = std::ranges::any_of(cut.pieces, [&](const Piece& piece) {
+            return std::ranges::any_of(file_->ranges(piece.index),
+                                       [&](const mesh::MaterialRange& range) {
+                                           return file_->materials()[range.material].image == image;
+                                       });
+        });
+        cut.pagesMissing += isMissing ? 1 : 0;
+        cut.pagesFailed += isMissing ? 1 : 0;
+        cut.isComplete = cut.isComplete && !isMissing;
+    }
+}
 
 void MeshDrawable::defineVertexFormat() {
     Program::kPackedPosition.define(vertexArray_);
@@ -354,7 +374,8 @@ absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& ob
                                                    PointPrograms& pointPrograms,
                                                    page::Loader& loader, const MeshMemory& memory,
                                                    TextureFormat format) {
-    MeshTextures textures(*file, memory.deviceBytes / 2, format);
+    ASSIGN_OR_RETURN(MeshTextures textures,
+                     MeshTextures::read(*file, memory.deviceBytes / 2, format));
     if (textures.bytes() > memory.deviceBytes)
         return absl::ResourceExhaustedError(fmt::format(
             "{}: its textures' coarsest levels need {} bytes, and its share of memory on the "

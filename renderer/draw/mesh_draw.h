@@ -23,8 +23,8 @@ using MeshPrograms = effects::EffectVariants<effects::MeshEffect>;
 MemoryUse greatestUse(const mesh::EymFile& file, TextureFormat format);
 
 /// Draws `file` as `object`. Textures may take half of its memory on the device. Both kinds of
-/// programs and `loader` outlive what is returned. Errors: those of MeshPaging::open;
-/// ResourceExhausted (textures).
+/// programs and `loader` outlive what is returned. Errors: those of MeshPaging::open and
+/// MeshTextures::read; ResourceExhausted (textures).
 absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& object,
                                                    std::shared_ptr<const mesh::EymFile> file,
                                                    MeshPrograms& programs,

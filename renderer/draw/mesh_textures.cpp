@@ -102,29 +102,34 @@ std::uint64_t MeshTextures::allBytes(const mesh::EymFile& file, TextureFormat fo
     return bytesWithout(0, file.images(), format);
 }
 
-MeshTextures::MeshTextures(const mesh::EymFile& file, std::uint64_t mostBytes, TextureFormat format)
-    : textures_(file.images().size()) {
+absl::StatusOr<MeshTextures> MeshTextures::read(const mesh::EymFile& file, std::uint64_t mostBytes,
+                                                TextureFormat format) {
+    MeshTextures read(file.images().size());
     const std::uint32_t drop = levelsToDrop(file.images(), mostBytes, format);
     if (drop > 0)
         spdlog::warn("{}: its textures are drawn without their {} finest levels: memory is short",
                      file.path(), drop);
-    for (std::uint32_t i = 0; i < textures_.size(); ++i) {
+    for (std::uint32_t i = 0; i < read.textures_.size(); ++i) {
         const mesh::ImageShape& shape = file.images()[i].shape;
         const std::uint32_t first = std::min(drop, shape.levels() - 1);
         const auto blocks = file.imageBlocks(i);
+        if (absl::IsUnavailable(blocks.status()))
+            return blocks.status();
         if (!blocks.ok()) {
             const absl::string_view message = blocks.status().message();
-            spdlog::warn("{}; its mean colour stands for it",
+            spdlog::warn("{}; its mean colour stands for it until the scene is opened again",
                          std::string_view(message.data(), message.size()));
-            uploadMean(textures_[i], shape);
-            bytes_ += sizeof(fabric::Rgba);
+            uploadMean(read.textures_[i], shape);
+            read.damaged_.push_back(static_cast<std::int32_t>(i));
+            read.bytes_ += sizeof(fabric::Rgba);
         } else {
-            (format == TextureFormat::Bc1 ? uploadBlocks : uploadTexels)(textures_[i], shape,
+            (format == TextureFormat::Bc1 ? uploadBlocks : uploadTexels)(read.textures_[i], shape,
                                                                          *blocks, first);
-            bytes_ += deviceBytes(shape, first, format);
+            read.bytes_ += deviceBytes(shape, first, format);
         }
-        setFilter(textures_[i], shape);
+        setFilter(read.textures_[i], shape);
     }
+    return read;
 }
 
 }  // namespace eyrie::draw

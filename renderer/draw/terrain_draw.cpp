@@ -114,6 +114,9 @@ private:
     const Wanted& wantedAt(double tauPixels, const lod::ObjectView& view);
     std::vector<NeededItem> itemsOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
                                     double texelPixels);
+    std::vector<NeededItem> neededItems(const lod::ObjectView& view, double texelPixels) const;
+    const Wanted& need(const CutRequest& request, int step);
+    int stepOf(const CutRequest& request, int first);
     /// By variant; null: not used in the frame so far.
     using PicturePrograms =
         std::array<const TerrainEffect*, TerrainEffect::Variant::kMaxImagery + 1>;
@@ -164,6 +167,12 @@ std::vector<NeededItem> TerrainDrawable::itemsOf(const lod::ObjectView& view,
                                                  const terrain::TerrainCut& cut,
                                                  double texelPixels) {
     needed_.assign(cut, cut, {view, view.view().frustum, {}, 1, {}});
+    return neededItems(view, texelPixels);
+}
+
+/// With all that may stand in.
+std::vector<NeededItem> TerrainDrawable::neededItems(const lod::ObjectView& view,
+                                                     double texelPixels) const {
     std::vector<NeededItem> items;
     for (const auto* tiles : {&needed_.leaves(), &needed_.inner()})
         for (const terrain::TileId& tile : *tiles)
@@ -183,6 +192,36 @@ std::uint64_t TerrainDrawable::viewTriangles(const CutRequest& request) {
     return triangles;
 }
 
+/// Sets what the channel needs at a step of the ladder, and returns what the view wants there.
+const TerrainDrawable::Wanted& TerrainDrawable::need(const CutRequest& request, int step) {
+    const Wanted& wanted =
+        wantedAt(request.tauPixels * page::TauLadder::factor(step), request.view);
+    needed_.assign(wanted.cut, wantedAt(request.tauPixels, request.view).cut, request);
+    return wanted;
+}
+
+/// The lowest step from the view's `first` on at which what the channel needs fits by itself. That
+/// may be more than its share of what the view needs: shares are of triangles, but pictures are as
+/// large as their ground, and several channels may need the same. A complete frame needs nothing
+/// that stands in; others come to what they need by way of it.
+int TerrainDrawable::stepOf(const CutRequest& request, int first) {
+    if (request.range.isWhole())
+        return first;
+    const auto bytes = [&](int step) {
+        const Wanted& wanted = need(request, step);
+        if (request.completeness == fabric::Completeness::Complete)
+            return paging_->bytesOf(
+                wanted.refinement, needed_,
+                imagery_.texturesOf(needed_.leaves(), request.view, texelPixels(step)));
+        std::uint64_t sum = 0;
+        for (const NeededItem& item : neededItems(request.view, texelPixels(step)))
+            sum += item.bytes;
+        return sum;
+    };
+    const std::uint64_t room = paging_->roomBytes();
+    return bytes(first) <= room ? first : page::TauLadder::lowest(bytes, room, first + 1);
+}
+
 Cut TerrainDrawable::selectCut(const CutRequest& request) {
     const page::TauLadder::Choice choice = tau_.choose(
         request,
@@ -192,15 +231,15 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
                        : itemsOf(view, wantedOf(view, tauPixels).cut, texelPixels(step));
         },
         paging_->roomBytes());
-    const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
-    const Wanted& wanted = wantedAt(tauPixels, request.view);
-    needed_.assign(wanted.cut, wantedAt(request.tauPixels, request.view).cut, request);
+    const int step = stepOf(request, choice.step);
+    const double tauPixels = request.tauPixels * page::TauLadder::factor(step);
+    const Wanted& wanted = need(request, step);
     Prefetch& prefetch = prefetch_.of(request.turn);
     prefetch.follow(request.view.view(),
                     fabric::exaggerated(worldFromObject_, request.exaggeration),
                     Prefetch::Clock::now());
     const std::vector<terrain::TextureId> textures =
-        imagery_.texturesOf(needed_.leaves(), request.view, texelPixels(choice.step));
+        imagery_.texturesOf(needed_.leaves(), request.view, texelPixels(step));
     const TerrainPaging::Result result =
         request.completeness == fabric::Completeness::Complete
             ? paging_->reach(wanted.refinement, needed_, textures, request.view, request.turn,
@@ -208,7 +247,7 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
             : paging_->approach(
                   wanted.refinement, needed_, textures, request.view, request.turn, [&] {
                       return itemsAhead(prefetch, index(), paging_->items(), tauPixels,
-                                        texelPixels(choice.step), paging_->latency());
+                                        texelPixels(step), paging_->latency());
                   });
 
     Cut cut;
@@ -223,7 +262,7 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
         if (const terrain::TileId& id = drawn_.tiles[i].id; needed_.contains(id))
             cut.pieces.push_back(
                 {i, needed_.position(id), index().bounds(id), true, index().tile(id).triangles});
-    imagery_.choose(drawn_.tiles, cut.pieces, request.view, texelPixels(choice.step));
+    imagery_.choose(drawn_.tiles, cut.pieces, request.view, texelPixels(step));
     if (request.wantsPageBounds)
         addPageBounds(wanted.cut, cut.pieces);
     wanted_.clear();

@@ -233,6 +233,14 @@ std::vector<TileId> TerrainPaging::tilesOf(const Refinement& cut, const NeededTi
     return tiles;
 }
 
+std::uint64_t TerrainPaging::bytesOf(const Refinement& wanted, const NeededTiles& needed,
+                                     const std::vector<TextureId>& textures) const {
+    std::uint64_t bytes = 0;
+    for (const TileId& tile : tilesOf(wanted, needed)) bytes += names_.of(tile).deviceBytes;
+    for (const TextureId& texture : textures) bytes += names_.of(texture).deviceBytes;
+    return bytes;
+}
+
 TerrainPaging::Result TerrainPaging::resultOf(Refinement drawn, const NeededTiles& needed,
                                               const std::vector<TextureId>& textures) const {
     std::unordered_set<std::uint32_t> missing;

@@ -92,6 +92,9 @@ public:
     }
 
     MemoryUse memory() const;
+    /// What reach() brings to the device where all can be read.
+    std::uint64_t bytesOf(const terrain::Refinement& wanted, const NeededTiles& needed,
+                          const std::vector<terrain::TextureId>& textures) const;
     /// Room on the device beside the top tile and texture tile.
     std::uint64_t roomBytes() const { return items_.limitBytes(); }
     const TerrainItems& items() const { return names_; }

@@ -107,10 +107,12 @@ std::optional<Wish> Loader::Source::State::next(Clock::time_point now,
 bool Loader::Source::State::hasHope() const {
     if (outage.isGivenUp)
         return false;
+    const Clock::time_point now = Clock::now();
     return std::any_of(wishes.begin(), wishes.end(), [&](const Wish& wish) {
         const auto failure = failures.find(wish.page);
         return !held.contains(wish.page) && fits(wish) &&
-               (failure == failures.end() || !failure->second.isGivenUp);
+               (failure == failures.end() || !failure->second.isGivenUp ||
+                failure->second.retryAt <= now);
     });
 }
 

@@ -94,8 +94,9 @@ public:
     void tryWish(std::vector<Wish> wishes);
     std::vector<Arrival> tryTake();
 
-    /// Blocks until something can be taken, or no wish is left but for pages that are given up or
-    /// of a source that failed as often, or `stop`. True when something can be taken.
+    /// Blocks until something can be taken, or no wish is left but for pages that are given up and
+    /// not due again, or of a source that failed as often, or `stop`. True when something can be
+    /// taken.
     bool wait(const std::stop_token& stop = {});
 
     /// Of pages that are being loaded or wait to be taken.

@@ -47,7 +47,7 @@ public:
         return {step_, true};
     }
 
-private:
+    /// The lowest step from `first` on that fits, or the last.
     template <typename Need>
     static int lowest(const Need& need, std::uint64_t limitBytes, int first) {
         if (first == 0 && need(0) <= limitBytes)
@@ -63,6 +63,7 @@ private:
         return last;
     }
 
+private:
     int step_ = 0;
 };
 

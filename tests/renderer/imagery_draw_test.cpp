@@ -127,7 +127,8 @@ protected:
 
     static ChannelResult draw(Renderer& renderer, const fabric::Camera& camera,
                               Completeness completeness = Completeness::Complete,
-                              PixelViewport part = {0, 0, kWidth, kHeight}) {
+                              PixelViewport part = {0, 0, kWidth, kHeight},
+                              const fabric::Range& range = {}) {
         fabric::FrameData frame;
         frame.camera = camera;
         fabric::ChannelTask task;
@@ -135,6 +136,7 @@ protected:
         task.viewHeight = kHeight;
         task.pixelViewport = part;
         task.completeness = completeness;
+        task.range = range;
         auto result = renderer.render(frame, task);
         EXPECT_TRUE(result.ok()) << result.status();
         return *std::move(result);
@@ -404,6 +406,64 @@ TEST_F(ImageryDraw, KeepsWithinTheDevicesMemoryByCoarserTexels) {
     EXPECT_LE(renderer->memory().deviceBytes, options.memoryBytes);
     EXPECT_EQ(result.statistics.pagesMissing, 0U);
     EXPECT_EQ(std::count(result.image.colour.begin(), result.image.colour.end(), kBackground), 0);
+}
+
+/// Ranges are shares of triangles, but pictures are as large as their ground, and several channels
+/// may need the same.
+TEST_F(ImageryDraw, RangesKeepWithinTheDevicesMemoryByCoarserTexels) {
+    terrain::HeightGrid grid = plain(385, 257, 10);
+    for (std::int32_t j = 0; j < grid.rows; ++j)
+        for (std::int32_t i = 0; i < grid.columns; ++i)
+            grid.row(j)[i] += static_cast<float>(20 * std::sin(0.3 * i) * std::cos(0.37 * j) +
+                                                 3 * std::sin(1.0 * i * j));
+    import(grid, 10, 1.25, pattern);
+    fabric::Camera camera;
+    camera.eye = {kWest + 200, kSouth + 100, kGround + 400};
+    camera.target = {kWest + 1900, kSouth + 1300, kGround};
+    const auto ample = open(file_->path());
+    const std::uint64_t top = ample->memory().deviceBytes;
+    draw(*ample, camera);
+    const std::uint64_t all = ample->memory().deviceBytes;
+    for (int share = 1; share <= 20; ++share) {
+        RendererOptions options;
+        options.decoding = TileDecoding::Cpu;
+        options.memoryBytes = top + (all - top) * static_cast<std::uint64_t>(share) / 32;
+        const auto renderer = open(file_->path(), options);
+        for (const double first : {0.0, 0.25, 0.5, 0.75}) {
+            const auto drawn = [&](Completeness completeness) {
+                return draw(*renderer, camera, completeness, {0, 0, kWidth, kHeight},
+                            {first, first + 0.25})
+                    .statistics;
+            };
+            const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+            fabric::FrameStatistics rest = drawn(Completeness::Interactive);
+            while (!rest.complete && std::chrono::steady_clock::now() < end)
+                rest = drawn(Completeness::Interactive);
+            EXPECT_TRUE(rest.complete) << share << "/32, from " << first;
+            const fabric::FrameStatistics still = drawn(Completeness::Complete);
+            EXPECT_EQ(still.pagesMissing, 0U) << share << "/32, from " << first;
+            EXPECT_LE(still.tauAchievedPixels, rest.tauAchievedPixels);
+            EXPECT_LE(renderer->memory().deviceBytes, options.memoryBytes);
+        }
+    }
+}
+
+/// The eye is within the terrain's box, where no finite error is promised.
+TEST_F(ImageryDraw, ShowsTheTopPictureWhereMemoryHoldsNoOther) {
+    terrain::HeightGrid grid = plain(193, 129, 10);
+    for (std::int32_t j = 0; j < grid.rows; ++j)
+        for (std::int32_t i = 0; i < grid.columns; ++i) grid.row(j)[i] += static_cast<float>(i);
+    import(grid, 10, 1.25, pattern);
+    fabric::Camera camera;
+    camera.eye = file_->index().bounds().centre() + fabric::Vec3(0, 0, 30);
+    camera.target = camera.eye + fabric::Vec3(100, 0, -20);
+    RendererOptions options;
+    options.memoryBytes = open(file_->path())->memory().deviceBytes + 1000;  // of the top's
+    const auto renderer = open(file_->path(), options);
+    const ChannelResult result = draw(*renderer, camera);
+    EXPECT_TRUE(result.statistics.complete);
+    EXPECT_EQ(result.statistics.nodes, 1U);
+    EXPECT_LE(renderer->memory().deviceBytes, options.memoryBytes);
 }
 
 }  // namespace eyrie

@@ -81,6 +81,7 @@ protected:
         EXPECT_TRUE(renderer_->openScene(scene_).ok());
         auto result = renderer_->render(frame_, task);
         EXPECT_TRUE(result.ok()) << result.status();
+        statistics_ = result->statistics;
         return result->image;
     }
 
@@ -101,6 +102,7 @@ protected:
     fabric::Scene scene_;
     fabric::FrameData frame_;
     fabric::ChannelTask task_;
+    fabric::FrameStatistics statistics_;  ///< of the last picture
 };
 
 /// `colour` over what is behind it, as displayed.
@@ -328,7 +330,7 @@ TEST_F(MeshMaterials, TexturesAreAsFineInARasterAsInItsView) {
     EXPECT_LT(difference / (kSize * kSize / 9), 4);
 }
 
-TEST_F(MeshMaterials, AnImageThatIsDamagedIsDrawnInItsMeanColour) {
+TEST_F(MeshMaterials, AnImageThatIsDamagedIsDrawnInItsMeanColourAndReported) {
     add(texturedSquare());
     std::string bytes = test::readFile(scene_.objects[0].path);
     bytes[bytes.size() - 100] = static_cast<char>(bytes[bytes.size() - 100] ^ 1);
@@ -336,6 +338,13 @@ TEST_F(MeshMaterials, AnImageThatIsDamagedIsDrawnInItsMeanColour) {
     const fabric::Image image = draw();
     expectNear(at(image, -2, 2), {180, 180, 180, 255}, 1);
     EXPECT_EQ(at(image, -2, 2), at(image, 2, -2));
+    EXPECT_FALSE(statistics_.complete);
+    EXPECT_EQ(statistics_.pagesMissing, 1U);
+    EXPECT_EQ(statistics_.pagesFailed, 1U);
+    frame_.camera.target = {0, 0, 20};  // away from it
+    draw();
+    EXPECT_TRUE(statistics_.complete);
+    EXPECT_EQ(statistics_.pagesMissing, 0U);
 }
 
 /// Squares, opaque, with holes and blended by turns, each a node of its own, turned and stacked.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Terrain at a URL, drawn while its server does what it should not.
+// Terrain and meshes at URLs, drawn while its server does what it should not.
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -11,6 +11,9 @@
 
 #include "fabric/log.h"
 #include "renderer/gl/debug_output.h"
+#include "renderer/import/mesh_import.h"
+#include "renderer/mesh/eym_format.h"
+#include "renderer/mesh/image_codec.h"
 #include "renderer/renderer.h"
 #include "tests/renderer/sample_scene.h"
 #include "tests/support/page_server.h"
@@ -166,6 +169,37 @@ TEST_F(RemotePages, OfAServerThatIsDownKeepTheSceneFromOpening) {
     const absl::Status status = (*renderer)->openScene(scene).status();
     EXPECT_TRUE(absl::IsUnavailable(status)) << status;
     EXPECT_NE(status.ToString().find(url()), std::string::npos);
+}
+
+/// Textures are read when the scene opens, and not again.
+TEST_F(RemotePages, OfATextureThatDoNotComeKeepTheSceneFromOpening) {
+    import::TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.textureCoordinates = {{0, 1}, {1, 1}, {0, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.materials = {{.image = 0}};
+    mesh.materialOf = {0, 0, 0};
+    mesh.images = {
+        mesh::encodeImage({512, 512, 0}, std::vector<fabric::Rgba>(512 * 512, {9, 99, 199, 255}))};
+    const std::string path = folder_.path("sheet.eym");
+    ASSERT_TRUE(import::importMesh(std::move(mesh), path).ok());
+    const auto file = mesh::EymFile::open(path);
+    ASSERT_TRUE(file.ok()) << file.status();
+    ASSERT_EQ(file->images().size(), 1U);
+    const mesh::ImageRecord& image = file->images()[0];
+    server_->setContent(textOf(path));
+    server_->refuseOnce(static_cast<std::int64_t>(image.offset + image.bytes / 2));
+
+    auto renderer = Renderer::create({});
+    ASSERT_TRUE(renderer.ok());
+    fabric::Scene scene;
+    scene.objects.push_back(
+        {.name = "sheet", .kind = fabric::ObjectKind::Mesh, .path = server_->url("sheet.eym")});
+    const absl::Status status = (*renderer)->openScene(scene).status();
+    EXPECT_TRUE(absl::IsUnavailable(status)) << status;
+    EXPECT_NE(status.ToString().find("image 0"), std::string::npos) << status;
+    const auto again = (*renderer)->openScene(scene);
+    EXPECT_TRUE(again.ok()) << again.status();
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <thread>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -129,6 +130,32 @@ TEST_F(Paging, ACorruptPageIsDrawnAsItsAncestorAndNamedOnce) {
     }
     EXPECT_EQ(different(result.image, whole.image), 0U);
     EXPECT_EQ(log.count("can be read again"), 1);
+}
+
+/// The loader tries a damaged page again after ten seconds.
+TEST_F(Paging, AStillIsAsFineAsCanBeReadWhenADamagedPageIsTriedAgain) {
+    const test::CapturedLog log;
+    const TileId first{0, quadtree().tilesX(0) / 2, quadtree().tilesY(0) / 2};
+    const std::uint32_t page = quadtree().pageIndex(first);
+    const TileId last{0, first.x + 3, first.y + 3};
+    ASSERT_EQ(quadtree().pageIndex(last), page);
+    flip(page);
+    const auto above = [&](const TileId& tile) {
+        Camera camera;
+        camera.target = file_->index().bounds(tile).centre();
+        camera.eye = camera.target + Vec3(0, 0, 2000);
+        camera.up = {0, 1, 0};
+        camera.fovYDegrees = 2;
+        return camera;
+    };
+    const auto renderer = open(copy_);
+    draw(*renderer, above(first), Completeness::Complete, 0.01);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10'100));
+    const ChannelResult due = draw(*renderer, above(last), Completeness::Complete, 0.01);
+    const ChannelResult again = draw(*renderer, above(last), Completeness::Complete, 0.01);
+    EXPECT_EQ(due.statistics.pagesFailed, 1U);
+    EXPECT_EQ(due.statistics.tauAchievedPixels, again.statistics.tauAchievedPixels);
+    EXPECT_EQ(different(due.image, again.image), 0U);
 }
 
 TEST_F(Paging, ATopPageThatCannotBeReadKeepsTheSceneFromOpening) {

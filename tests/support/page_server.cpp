@@ -132,6 +132,10 @@ bool PageServer::answer(int connection, const std::string& request) {
         std::min<std::size_t>(std::strtoull(next + 1, nullptr, 10), whole.size() - 1);
     if (first >= whole.size())
         return sendAll(connection, refusal(416));
+    std::int64_t refused = refused_;
+    if (refused >= static_cast<std::int64_t>(first) && refused <= static_cast<std::int64_t>(last) &&
+        refused_.compare_exchange_strong(refused, -1))
+        return sendAll(connection, refusal(503));
     const std::size_t bytes = last - first + 1;
     const std::string header = fmt::format(
         "HTTP/1.1 206 Partial Content\r\nContent-Length: {}\r\nContent-Range: bytes "

@@ -33,6 +33,8 @@ public:
     std::string url(const std::string& name) const;
     void set(Mood mood) { mood_ = mood; }
     void setContent(std::string content);
+    /// Answers 503 to the next request for a range with this byte.
+    void refuseOnce(std::int64_t byte) { refused_ = byte; }
 
     /// Requests for contents (GET) so far, and those for size alone (HEAD).
     int gets() const { return gets_; }
@@ -47,6 +49,7 @@ private:
     mutable std::mutex contentMutex_;
     std::string content_;
     std::atomic<Mood> mood_{Mood::Good};
+    std::atomic<std::int64_t> refused_{-1};
     std::atomic<bool> isStopping_{false};
     std::atomic<int> gets_{0};
     std::atomic<int> heads_{0};

@@ -95,8 +95,8 @@ private:
         const TexturePyramid& pyramid = imagery_.pyramid;
         const double finest = pixelsOf(0, bounds);
         const int top = pyramid.top().level;
-        if (!(finest > 0))
-            return top;  // nothing of it is seen
+        if (!(finest > 0) || std::isinf(texelPixels_))
+            return top;  // nothing of it is seen, or any will do
         int level = static_cast<int>(std::clamp(std::floor(std::log2(texelPixels_ / finest)), 0.0,
                                                 static_cast<double>(top)));
         while (level > 0 && pixelsOf(level, bounds) > texelPixels_) --level;

@@ -268,6 +268,29 @@ TEST(Loader, TriesADamagedPageAgainAfterTheLongestPauseOnly) {
     EXPECT_FALSE(source->wait()) << "nobody waits for it";
 }
 
+TEST(Loader, WaitsForTheNextAttemptAtAGivenUpPageOnceItIsDue) {
+    FakePages pages;
+    pages.fail(5, absl::DataLossError("page 5: its checksum is wrong"));
+    Loader loader({.threads = 1, .firstRetry = milliseconds(1), .lastRetry = milliseconds(20)});
+    const auto source = loader.open(pages.function(), 1000);
+    source->wish(wishes({5}));
+    ASSERT_TRUE(source->wait());
+    source->take();
+    std::this_thread::sleep_for(milliseconds(40));
+    FakePages others;  // keep the thread, so that the attempt begins when somebody waits
+    others.hold(true);
+    const auto other = loader.open(others.function(), 1000);
+    other->wish(wishes({1}));
+    others.awaitBegun(1);
+    source->wish(wishes({5}));
+    const std::jthread release([&] {
+        std::this_thread::sleep_for(milliseconds(20));
+        others.hold(false);
+    });
+    EXPECT_TRUE(source->wait());
+    EXPECT_EQ(source->take().size(), 1U);
+}
+
 TEST(Loader, AsksASourceThatFailedForOnePageAtATimeUntilOneComes) {
     FakePages pages;
     for (std::uint32_t page = 0; page < 8; ++page)

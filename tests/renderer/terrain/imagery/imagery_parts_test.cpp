@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -124,6 +125,17 @@ TEST(ImageryParts, AreManyOnPicturesMuchFinerThanThePosts) {
     const auto parts = imageryParts(index, viewFrom({160, 160, 120}, {160, 160, 0}), kTexelPixels,
                                     {0, 0, 0}, isThere);
     EXPECT_GT(parts.size(), 3U);
+}
+
+/// Memory is so short that any texels will do, and around the eye no size on the screen is finite.
+TEST(ImageryParts, AreTheTopTextureWhereAnyTexelsWillDo) {
+    const EytIndex index = ground(2);
+    const auto parts =
+        imageryParts(index, viewFrom({1000, 1000, 25}, {2000, 1000, 25}),
+                     std::numeric_limits<double>::infinity(), index.quadtree.top(), isThere);
+    ASSERT_EQ(parts.size(), 1U);
+    EXPECT_TRUE(parts[0].isWhole());
+    EXPECT_EQ(parts[0].texture, index.imagery->pyramid.top());
 }
 
 TEST(ImageryParts, HaveNoTextureWhereThereIsNoPicture) {
