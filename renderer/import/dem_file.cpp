@@ -26,6 +26,8 @@ struct ValueRule {
     bool lowestIsNodata = false;  ///< -32768, in 16-bit rasters, said or not
     double scale = 1;
     double offset = 0;
+    bool isWide = false;     ///< values may have more digits than floats have
+    bool isRounded = false;  ///< and so may heights
 };
 
 /// Refuses bands that hold something else than heights.
@@ -144,6 +146,11 @@ absl::StatusOr<ValueRule> valueRule(const std::string& path, GDALRasterBandH ban
             "have them; if they count downward, say so first (gdal_translate -a_scale -1)");
     rule.scale = scale * unit;
     rule.offset = offset * unit;
+    const GDALDataType type = GDALGetRasterDataType(band);
+    rule.isWide = GDALGetDataTypeSizeBits(type) > 16 && type != GDT_Float32;
+    const bool isWhole = type != GDT_Float64 && GDALDataTypeIsInteger(type) != 0;
+    const bool isAsItIs = rule.scale == 1 && rule.offset == 0;
+    rule.isRounded = !(isAsItIs && (isWhole || type == GDT_Float32));
     return rule;
 }
 
@@ -220,38 +227,49 @@ protected:
         const int columns = std::min(nBlockXSize, nRasterXSize - i);
         const int rows = std::min(nBlockYSize, nRasterYSize - j);
         auto* heights = static_cast<float*>(data);
-        const auto line = static_cast<GSpacing>(nBlockXSize) * static_cast<GSpacing>(sizeof(float));
-        if (source_->RasterIO(GF_Read, i, j, columns, rows, heights, columns, rows, GDT_Float32,
-                              sizeof(float), line, nullptr) != CE_None)
-            return CE_Failure;
         if (mask_ != nullptr && !readMask(i, j, columns, rows))
+            return CE_Failure;
+        if (!rule_.isWide)
+            return turn(heights, GDT_Float32, i, j, columns, rows, heights);
+        values_.resize(static_cast<std::size_t>(nBlockXSize) * static_cast<std::size_t>(rows));
+        return turn(values_.data(), GDT_Float64, i, j, columns, rows, heights);
+    }
+
+private:
+    /// By way of `values`, as many a row as a block has, which may be the heights' own place.
+    template <typename T>
+    CPLErr turn(T* values, GDALDataType type, int i, int j, int columns, int rows, float* heights) {
+        const auto line = static_cast<GSpacing>(nBlockXSize) * static_cast<GSpacing>(sizeof(T));
+        if (source_->RasterIO(GF_Read, i, j, columns, rows, values, columns, rows, type, sizeof(T),
+                              line, nullptr) != CE_None)
             return CE_Failure;
         for (int v = 0; v < rows; ++v)
             for (int u = 0; u < columns; ++u) {
-                float& height = heights[v * std::ptrdiff_t{nBlockXSize} + u];
-                height = mask_ != nullptr && valid_[static_cast<std::size_t>(v * columns + u)] == 0
-                             ? terrain::kNodata
-                             : heightOf(height, i + u, j + v);
+                const std::ptrdiff_t k = v * std::ptrdiff_t{nBlockXSize} + u;
+                heights[k] =
+                    mask_ != nullptr && valid_[static_cast<std::size_t>(v * columns + u)] == 0
+                        ? terrain::kNodata
+                        : heightOf(values[k], i + u, j + v);
             }
         return CE_None;
     }
 
-private:
     bool readMask(int i, int j, int columns, int rows) {
         valid_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
         return mask_->RasterIO(GF_Read, i, j, columns, rows, valid_.data(), columns, rows, GDT_Byte,
                                0, 0, nullptr) == CE_None;
     }
 
-    float heightOf(float value, int column, int row) {
+    float heightOf(double value, int column, int row) {
         if (rule_.isSignedByte && value > 127)
             value -= 256;
-        if (isSaidToBeNodata(value, rule_))
+        const auto nearest = static_cast<float>(value);
+        if (isSaidToBeNodata(nearest, rule_))
             return terrain::kNodata;
-        if (isPossible(value, rule_))
-            return static_cast<float>(static_cast<double>(value) * rule_.scale + rule_.offset);
+        if (isPossible(nearest, rule_))
+            return static_cast<float>(value * rule_.scale + rule_.offset);
         if (!*impossible_)
-            *impossible_ = {column, row, value};
+            *impossible_ = {column, row, nearest};
         return terrain::kNodata;
     }
 
@@ -260,6 +278,7 @@ private:
     ValueRule rule_;
     Impossible impossible_;
     std::vector<unsigned char> valid_;
+    std::vector<double> values_;
 };
 
 class HeightDataset : public GDALDataset {
@@ -323,6 +342,7 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
                        "is in degrees of a rotated pole, not of the earth; reproject it with "
                        "gdalwarp -t_srs EPSG:4326 first");
     ASSIGN_OR_RETURN(const ValueRule rule, valueRule(path, band, crs, file.notes));
+    file.isRounded = rule.isRounded;
     std::array<double, 6> ignored{};
     file.isGeoreferenced = GDALGetGeoTransform(dataset.get(), ignored.data()) == CE_None;
     ASSIGN_OR_RETURN(file.reference, georeferenceOf(path, dataset.get(), file.notes));

@@ -33,6 +33,8 @@ struct DemFile {
     bool isGeoreferenced = false;
     SpatialReference crs;    ///< null: none
     std::uint64_t hash = 0;  ///< XXH64 of the bytes of all its files
+    /// Whether heights may have more digits than floats have, of which they are the nearest.
+    bool isRounded = false;
     std::vector<std::string> notes;
     /// The first of those read so far; they become nodata. Never null.
     std::shared_ptr<const std::optional<ImpossibleHeight>> impossible;

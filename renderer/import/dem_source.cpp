@@ -46,12 +46,14 @@ absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
     GDALSetCacheMax64(static_cast<GIntBig>(kGdalCacheBytes));
     std::vector<DemFile> files;
     std::uint64_t hash = 0;
+    bool isRounded = false;
     for (const std::string& path : paths) {
         RETURN_IF_ERROR(control.check());
         control.report("checking",
                        static_cast<double>(files.size()) / static_cast<double>(paths.size()));
         ASSIGN_OR_RETURN(DemFile file, openDemFile(path, gdal, hashFolder, control.stop));
         hash = files.empty() ? file.hash : hash * 0x9e3779b97f4a7c15 + file.hash;
+        isRounded = isRounded || file.isRounded;
         files.push_back(std::move(file));
     }
     control.report("checking", 1);
@@ -63,6 +65,7 @@ absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
     ASSIGN_OR_RETURN(DemSource source, isOne ? openAsItIs(std::move(files.front()))
                                              : mosaicOf(std::move(files), gdal));
     source.hash = hash;
+    source.isRounded = isRounded;
     return source;
 }
 

@@ -19,6 +19,7 @@ struct DemSource {
     std::string crsWkt;              ///< of the posts' x and y; empty: the source has none
     std::uint64_t hash = 0;          ///< of all bytes of all files, in their order
     std::vector<std::string> notes;  ///< what was assumed or changed, for people
+    bool isRounded = false;          ///< of some file: DemFile::isRounded
 };
 
 /// Opens the first band of any rasters GDAL reads; `.gz` and `.zip` are looked into. Pixels are

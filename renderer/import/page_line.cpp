@@ -30,23 +30,33 @@ float roundedUp(double value) {
                : std::nextafter(nearest, std::numeric_limits<float>::infinity());
 }
 
-void setPartErrors(const terrain::TileMesh& mesh, double rounding, terrain::TileRecord& record) {
+/// What may be missing in an error that was reckoned.
+struct Rounding {
+    double ofErrors = 0;   ///< of one that is not 0
+    double ofHeights = 0;  ///< of posts before all else
+
+    double with(double error) const { return error > 0 ? error + ofErrors + ofHeights : ofHeights; }
+};
+
+/// Of floats that are the nearest ones, for a height of 1.
+constexpr double kFloatRounding = 1.0 / (1 << 24);
+
+void setPartErrors(const terrain::TileMesh& mesh, const Rounding& rounding,
+                   terrain::TileRecord& record) {
     for (std::int32_t y = 0; y < terrain::kTilePartsPerSide; ++y) {
         int shares = 0;
         for (std::int32_t x = 0; x < terrain::kTilePartsPerSide; ++x) {
-            const double error = mesh.errors.metres(x, y);
-            shares |= terrain::partShare(error > 0 ? error + rounding : 0, record.errorMetres)
-                      << 4 * x;
+            const double error = rounding.with(mesh.errors.metres(x, y));
+            shares |= terrain::partShare(error, record.errorMetres) << 4 * x;
         }
         record.partErrors[static_cast<std::size_t>(y)] = static_cast<std::uint16_t>(shares);
     }
 }
 
 /// A tile's record before its children are known; no heights while min > max.
-terrain::TileRecord recordOf(const terrain::TileMesh& mesh, double rounding) {
+terrain::TileRecord recordOf(const terrain::TileMesh& mesh, const Rounding& rounding) {
     terrain::TileRecord record;
-    const double error = mesh.errors.greatest();
-    record.errorMetres = error > 0 ? roundedUp(error + rounding) : 0;
+    record.errorMetres = roundedUp(rounding.with(mesh.errors.greatest()));
     record.outlineMetres = roundedUp(mesh.outlineMetres);
     record.nodataParts = mesh.nodataParts;
     setPartErrors(mesh, rounding, record);
@@ -78,7 +88,7 @@ public:
           control_(control),
           index_(index),
           sink_(sink),
-          rounding_(sources.model.statistics.highestMagnitude() * terrain::kDeviationRounding),
+          rounding_(roundingOf(sources)),
           workers_([this] { return std::make_unique<Worker>(sources_, index_.quadtree); }) {}
 
     absl::Status run() {
@@ -100,6 +110,13 @@ public:
     }
 
 private:
+    static Rounding roundingOf(const PageSources& sources) {
+        const double highest = sources.model.statistics.highestMagnitude();
+        // Floats hold whole numbers only up to 2^24.
+        const bool isRounded = sources.isRounded || highest * kFloatRounding > 1;
+        return {highest * terrain::kDeviationRounding, isRounded ? highest * kFloatRounding : 0};
+    }
+
     /// What each thread has for itself.
     struct Worker {
         Worker(const PageSources& sources, const terrain::Quadtree& quadtree)
@@ -150,7 +167,8 @@ private:
         std::vector<std::int8_t> normals;
         forEachTileOfPage(index_.quadtree, number, [&](const TileId& tile, int place) {
             const terrain::TileMesh& mesh = worker.mesher.mesh(tile);
-            terrain::TileRecord record = recordOf(mesh, rounding_);
+            terrain::TileRecord record =
+                recordOf(mesh, mesh.ownTriangles() > 0 ? rounding_ : Rounding{});
             if (tile.level == 0)
                 coverPosts(worker.samples, record);
             index_.tiles[index_.quadtree.tileIndex(tile)] = record;
@@ -190,7 +208,7 @@ private:
     const ImportControl& control_;
     terrain::EytIndex& index_;
     const PageSink& sink_;
-    double rounding_;
+    Rounding rounding_;
     tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers_;
     std::size_t done_ = 0;
     absl::Status status_;  // by the last stage

@@ -23,6 +23,7 @@ struct PageSources {
     const terrain::VertexLevels& levels;
     const terrain::NormalMaps& normals;
     terrain::HeightLattice lattice;
+    bool isRounded = false;          ///< the model's heights are, to floats
     const PartSet* parts = nullptr;  ///< pages that are built already; may be null
 };
 

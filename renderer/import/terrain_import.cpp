@@ -157,7 +157,8 @@ private:
     /// three passes over all posts need.
     absl::Status writePages(const terrain::HeightLattice& lattice, TerrainStages& stages,
                             terrain::EytIndex& index, terrain::EytWriter& writer) {
-        const PageSources sources{model_, heights_, vertexLevels_, normals_, lattice, parts_};
+        const PageSources sources{model_,  heights_,          vertexLevels_, normals_,
+                                  lattice, source_.isRounded, parts_};
         const int coarse = std::min(levels_, terrain::kFullResolutionLevels);
         const auto write = [&](int first, int end) {
             return writeLevels(first, end, sources, scratch_, control_, stages, index, writer);
@@ -212,7 +213,7 @@ private:
         return report;
     }
 
-    static constexpr int kImportVersion = 6;  ///< raise it when scratch or journal change
+    static constexpr int kImportVersion = 7;  ///< raise it when scratch or journal change
 
     HeightSource& posts_;
     ImagerySource* imagery_;
@@ -280,8 +281,8 @@ absl::StatusOr<TerrainImportReport> importTerrain(const std::vector<std::string>
     const std::string name = dems.size() == 1
                                  ? dems.front()
                                  : fmt::format("{} and {} more", dems.front(), dems.size() - 1);
-    absl::StatusOr<TerrainImportReport> report =
-        importTerrain(*source.posts, {name, source.crsWkt, source.hash}, out, options, control);
+    absl::StatusOr<TerrainImportReport> report = importTerrain(
+        *source.posts, {name, source.crsWkt, source.hash, source.isRounded}, out, options, control);
     if (absl::IsInvalidArgument(report.status()))  // no data, which the findings may explain
         return explained(report.status(), source.posts->findings());
     RETURN_IF_ERROR(report.status());

@@ -59,6 +59,7 @@ struct TerrainSource {
     std::string name;  ///< for messages
     std::string crsWkt;
     std::uint64_t hash = 0;
+    bool isRounded = false;  ///< its posts are to floats
 };
 
 /// Makes an .eyt of elevation models, mosaicked as openMosaic says. `out` appears complete or not

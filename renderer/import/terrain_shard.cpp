@@ -71,7 +71,7 @@ public:
 
 private:
     std::uint64_t key() const {
-        constexpr std::uint64_t kVersion = 3;  // raise it when scratch or journal change
+        constexpr std::uint64_t kVersion = 4;  // raise it when scratch or journal change
         const std::uint64_t seed = kVersion << 32 | shard_.index;
         return XXH64(&identity_, sizeof identity_, seed);
     }
@@ -144,8 +144,9 @@ private:
             });
             return writer.addPage(tiles, bytes);
         };
-        RETURN_IF_ERROR(buildPages({model_, heights_, vertexLevels_, normals_, lattice},
-                                   plan_.pagesOf(shard_.index), scratch_, control_, index, sink));
+        RETURN_IF_ERROR(
+            buildPages({model_, heights_, vertexLevels_, normals_, lattice, source_.isRounded},
+                       plan_.pagesOf(shard_.index), scratch_, control_, index, sink));
         if (imagery_ != nullptr)
             RETURN_IF_ERROR(buildTextures(*imagery_, plan_.texturesOf(shard_.index), control_,
                                           [&](std::size_t k, const TexturePiece& texture) {
@@ -248,9 +249,10 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(const std::vector<std::str
     const std::string name = dems.size() == 1
                                  ? dems.front()
                                  : fmt::format("{} and {} more", dems.front(), dems.size() - 1);
-    ASSIGN_OR_RETURN(TerrainShardReport report,
-                     importTerrainShard(*source.posts, {name, source.crsWkt, source.hash}, out,
-                                        shard, options, control));
+    ASSIGN_OR_RETURN(
+        TerrainShardReport report,
+        importTerrainShard(*source.posts, {name, source.crsWkt, source.hash, source.isRounded}, out,
+                           shard, options, control));
     report.notes.insert(report.notes.begin(), source.notes.begin(), source.notes.end());
     return report;
 }

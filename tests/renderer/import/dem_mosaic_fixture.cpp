@@ -14,10 +14,11 @@ namespace eyrie::test {
 std::string DemMosaic::write(const Raster& raster) {
     GDALAllRegister();
     const std::string path = folder_.path(fmt::format("{}.tif", files_++));
-    const GDALDatasetUniquePtr file(
-        GetGDALDriverManager()
-            ->GetDriverByName(raster.driver)
-            ->Create(path.c_str(), raster.columns, raster.rows, 1, GDT_Float32, nullptr));
+    const GDALDatasetUniquePtr file(GetGDALDriverManager()
+                                        ->GetDriverByName(raster.driver)
+                                        ->Create(path.c_str(), raster.columns, raster.rows, 1,
+                                                 raster.isDouble ? GDT_Float64 : GDT_Float32,
+                                                 nullptr));
     std::array<double, 6> transform{raster.west, raster.pixel, 0, raster.north, 0, -raster.pixel};
     file->SetGeoTransform(transform.data());
     if (raster.epsg != 0) {
@@ -33,13 +34,14 @@ std::string DemMosaic::write(const Raster& raster) {
     if (*raster.unit != 0)
         band->SetUnitType(raster.unit);
     band->SetScale(raster.scale);
-    std::vector<float> row(static_cast<std::size_t>(raster.columns));
+    band->SetOffset(raster.offset);
+    std::vector<double> row(static_cast<std::size_t>(raster.columns));
     for (int j = 0; j < raster.rows; ++j) {
         for (int i = 0; i < raster.columns; ++i)
-            row[static_cast<std::size_t>(i)] = static_cast<float>(raster.height(
-                raster.west + raster.pixel * (i + 0.5), raster.north - raster.pixel * (j + 0.5)));
+            row[static_cast<std::size_t>(i)] = raster.height(
+                raster.west + raster.pixel * (i + 0.5), raster.north - raster.pixel * (j + 0.5));
         EXPECT_EQ(band->RasterIO(GF_Write, 0, j, raster.columns, 1, row.data(), raster.columns, 1,
-                                 GDT_Float32, 0, 0, nullptr),
+                                 GDT_Float64, 0, 0, nullptr),
                   CE_None);
     }
     return path;

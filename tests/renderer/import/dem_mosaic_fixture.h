@@ -27,6 +27,8 @@ struct Raster {
     double nodata = -9999;
     const char* unit = "";
     double scale = 1;
+    double offset = 0;
+    bool isDouble = false;  ///< of 64 bits, not 32
 };
 
 /// Rasters in a folder of the test's own, to be read as one terrain.

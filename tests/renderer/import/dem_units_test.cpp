@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rasters whose heights are in units and above datums of their own, as one terrain in metres.
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -7,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "renderer/import/terrain_import.h"
+#include "renderer/terrain/eyt_format.h"
 #include "tests/renderer/import/dem_mosaic_fixture.h"
 
 namespace eyrie::import {
@@ -26,6 +29,43 @@ TEST_F(DemMosaic, TurnsEachRastersOwnUnitToMetres) {
     EXPECT_FLOAT_EQ(dem->grid.at(5, 5), 100);
     EXPECT_FLOAT_EQ(dem->grid.at(15, 5), 304.8F);
     EXPECT_FLOAT_EQ(dem->grid.at(25, 5), 21);
+}
+
+/// As of the Moon, whose heights are kept as distances from its middle.
+TEST_F(DemMosaic, HasTheFloatsNearestToHeightsOf64Bits) {
+    const auto height = [](double x, double) { return (x - 500000) / 30; };
+    const auto dem =
+        test::readDem(write({.west = 500000,
+                             .north = 5200100,
+                             .height = [&](double x, double y) { return 1737400 + height(x, y); },
+                             .offset = -1737400,
+                             .isDouble = true}));
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    for (std::int32_t i = 0; i < 10; ++i)
+        EXPECT_NEAR(dem->grid.at(i, 3), height(500005 + 10 * i, 0), 1e-6) << i;
+}
+
+TEST_F(DemMosaic, CountsWhatFloatsRoundAsErrors) {
+    const auto errorOf = [&](const test::Raster& raster) {
+        const std::string out = folder_.path("dem.eyt");
+        EXPECT_TRUE(importTerrain({write(raster)}, out, {}, {}).ok());
+        const auto file = terrain::EytFile::open(out);
+        EXPECT_TRUE(file.ok()) << file.status();
+        return double{(*file)->index().tile({0, 0, 0}).errorMetres};
+    };
+    const test::Raster metres{.west = 500000, .north = 5200100, .height = constant(4234)};
+    EXPECT_EQ(errorOf(metres), 0);
+    test::Raster feet = metres;
+    feet.unit = "ft";
+    feet.height = constant(13891);  // 4233.9768 m, of which the nearest float is 0.0001 off
+    test::Raster wide = metres;
+    wide.height = constant(4233.9768);
+    wide.isDouble = true;
+    for (const test::Raster& raster : {feet, wide}) {
+        const double off = std::abs(4233.9768 - std::round(4233.9768 * 64) / 64);
+        EXPECT_GE(errorOf(raster), off);
+        EXPECT_LE(errorOf(raster), off + 0.0006);
+    }
 }
 
 TEST_F(DemMosaic, KnowsUnitsHoweverTheyAreWritten) {
