@@ -21,7 +21,7 @@ struct GeographicBox {
 
 struct LocalProjection {
     SpatialReference crs;
-    /// For people, where lengths on the map are not nearly those on the ground; otherwise empty.
+    /// For people, of a map for wide lands: how far its lengths are off; of others empty.
     std::string caveat;
     /// Of a cylindrical one, the map's width, half of it on either side of 0; of others 0.
     double aroundTheEarth = 0;
