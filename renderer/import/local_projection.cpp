@@ -48,7 +48,20 @@ SpatialReference named(const std::string& name, OGRSpatialReferenceH geographic)
     return OSRCopyGeogCSFrom(crs.get(), geographic) == OGRERR_NONE ? std::move(crs) : nullptr;
 }
 
+LocalProjection transverseMercator(OGRSpatialReferenceH geographic, const Vec2& centre) {
+    LocalProjection result{named(fmt::format("Transverse Mercator around {:.4g}, {:.4g}",
+                                             within180(centre.x), centre.y),
+                                 geographic),
+                           {}};
+    if (result.crs &&
+        OSRSetTM(result.crs.get(), centre.y, within180(centre.x), 1, 0, 0) != OGRERR_NONE)
+        result.crs = nullptr;
+    return result;
+}
+
 LocalProjection utm(OGRSpatialReferenceH geographic, const Vec2& centre) {
+    if (OSRGetPrimeMeridian(geographic, nullptr) != 0)  // zones count from Greenwich
+        return transverseMercator(geographic, centre);
     const int zone = std::clamp(static_cast<int>((within180(centre.x) + 180) / 6) + 1, 1, 60);
     const bool isNorth = centre.y >= 0;
     LocalProjection result{
