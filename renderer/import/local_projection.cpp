@@ -60,7 +60,9 @@ LocalProjection transverseMercator(OGRSpatialReferenceH geographic, const Vec2& 
 }
 
 LocalProjection utm(OGRSpatialReferenceH geographic, const Vec2& centre) {
-    if (OSRGetPrimeMeridian(geographic, nullptr) != 0)  // zones count from Greenwich
+    // Zones count from Greenwich, and PROJ has them of ellipsoids only.
+    if (OSRGetPrimeMeridian(geographic, nullptr) != 0 ||
+        OSRGetInvFlattening(geographic, nullptr) == 0)
         return transverseMercator(geographic, centre);
     const int zone = std::clamp(static_cast<int>((within180(centre.x) + 180) / 6) + 1, 1, 60);
     const bool isNorth = centre.y >= 0;
@@ -71,9 +73,11 @@ LocalProjection utm(OGRSpatialReferenceH geographic, const Vec2& centre) {
     return result;
 }
 
-LocalProjection polarStereographic(bool isNorth) {
-    LocalProjection result{SpatialReference(OSRNewSpatialReference(nullptr)), {}};
-    if (OSRImportFromEPSG(result.crs.get(), isNorth ? 32661 : 32761) != OGRERR_NONE)
+/// With UPS's scale and origin, of whatever body.
+LocalProjection polarStereographic(OGRSpatialReferenceH geographic, bool isNorth) {
+    LocalProjection result{named(isNorth ? "UPS North" : "UPS South", geographic), {}};
+    if (result.crs &&
+        OSRSetPS(result.crs.get(), isNorth ? 90 : -90, 0, 0.994, 2e6, 2e6) != OGRERR_NONE)
         result.crs = nullptr;
     return result;
 }
@@ -110,7 +114,7 @@ LocalProjection projectionFor(OGRSpatialReferenceH geographic, const GeographicB
     const Vec2 centre = box.centre();
     const Vec2 span = box.span();
     if (std::abs(centre.y) > kUtmLimitDegrees && span.y <= kMostUtmDegrees)
-        return polarStereographic(centre.y > 0);
+        return polarStereographic(geographic, centre.y > 0);
     if (span.x <= kMostUtmDegrees && span.y <= kMostUtmDegrees)
         return utm(geographic, centre);
     const double farthest = farthestFrom(centre, box);

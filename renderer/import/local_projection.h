@@ -28,11 +28,11 @@ struct LocalProjection {
 };
 
 /// The projected CRS for data that lie in `box` of `geographic`, which is in degrees: up to 30
-/// degrees the UTM zone of its centre or, where longitudes are not from Greenwich, transverse
-/// Mercator around it, beyond latitude 84 polar stereographic; of what is wider, but within 60
-/// degrees from its centre or from a pole, Lambert's azimuthal equal-area projection around that;
-/// and of the rest of the earth the equidistant cylindrical one. J. P. Snyder, Map Projections: A
-/// Working Manual (1987), pages 57, 182, 90. Errors: InvalidArgument, naming `path`.
+/// degrees the UTM zone of its centre or, on a sphere and where longitudes are not from Greenwich,
+/// transverse Mercator around it, beyond latitude 84 polar stereographic; of what is wider, but
+/// within 60 degrees from its centre or from a pole, Lambert's azimuthal equal-area projection
+/// around that; and of the rest of the earth the equidistant cylindrical one. J. P. Snyder, Map
+/// Projections: A Working Manual (1987), pages 57, 182, 90. Errors: InvalidArgument, naming `path`.
 absl::StatusOr<LocalProjection> localProjection(const std::string& path,
                                                 OGRSpatialReferenceH geographic,
                                                 const GeographicBox& box);
