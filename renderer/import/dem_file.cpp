@@ -346,6 +346,11 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
         return invalid(path,
                        "is in degrees of a rotated pole, not of the earth; reproject it with "
                        "gdalwarp -t_srs EPSG:4326 first");
+    if (crs != nullptr && OSRIsGeocentric(crs) != 0)
+        return invalid(path, fmt::format("its CRS ({}) counts from the earth's centre, so its "
+                                         "pixels are no map; give it the right one (gdal_edit.py "
+                                         "-a_srs)",
+                                         OSRGetName(crs)));
     ASSIGN_OR_RETURN(const ValueRule rule, valueRule(path, band, crs, file.notes));
     std::array<double, 6> ignored{};
     file.isGeoreferenced = GDALGetGeoTransform(dataset.get(), ignored.data()) == CE_None;
