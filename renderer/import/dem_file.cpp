@@ -11,6 +11,7 @@
 #include <absl/strings/ascii.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
+#include <glm/trigonometric.hpp>
 
 #include "fabric/status.h"
 #include "renderer/import/raster_file.h"
@@ -181,6 +182,26 @@ absl::StatusOr<Georeference> georeferenceOf(const std::string& path, GDALDataset
     return Georeference{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}};
 }
 
+/// Of a raster in another angle than degrees, as grads; others stay as they are.
+absl::Status turnToDegrees(const std::string& path, OGRSpatialReferenceH crs,
+                           Georeference& reference, std::vector<std::string>& notes) {
+    if (crs == nullptr || OSRIsGeographic(crs) == 0)
+        return absl::OkStatus();
+    char* name = nullptr;
+    const double degrees = glm::degrees(OSRGetAngularUnits(crs, &name));
+    constexpr double kRounding = 1e-6;  // of the radians that files give a degree
+    if (std::abs(degrees - 1) < kRounding)
+        return absl::OkStatus();
+    notes.push_back(fmt::format("{} turned to degrees", name));
+    if (OSRSetAngularUnits(crs, SRS_UA_DEGREE, glm::radians(1.0)) != OGRERR_NONE)
+        return invalid(path,
+                       "its CRS cannot be brought to degrees; reproject it with gdalwarp "
+                       "-t_srs EPSG:4326 first");
+    reference = {reference.origin * degrees, reference.perColumn * degrees,
+                 reference.perRow * degrees};
+    return absl::OkStatus();
+}
+
 /// What says which of a band's pixels have heights, beside its values; null: nothing does.
 GDALRasterBand* maskOf(GDALDataset& dataset, GDALRasterBand& heights) {
     const int flags = heights.GetMaskFlags();
@@ -283,10 +304,12 @@ private:
 
 class HeightDataset : public GDALDataset {
 public:
-    /// Its first `columns`, which lie as `reference` says.
-    HeightDataset(Dataset source, const Georeference& reference, int columns, const ValueRule& rule,
-                  HeightBand::Impossible impossible)
-        : source_(std::move(source)), transform_(geoTransform(reference)) {
+    /// Its first `columns`, which lie in `crs` (null: none) as `reference` says.
+    HeightDataset(Dataset source, OGRSpatialReferenceH crs, const Georeference& reference,
+                  int columns, const ValueRule& rule, HeightBand::Impossible impossible)
+        : source_(std::move(source)),
+          crs_(crs == nullptr ? nullptr : OSRClone(crs)),
+          transform_(geoTransform(reference)) {
         GDALDataset* const dataset = GDALDataset::FromHandle(source_.get());
         nRasterXSize = columns;
         nRasterYSize = dataset->GetRasterYSize();
@@ -301,11 +324,12 @@ public:
         return CE_None;
     }
     const OGRSpatialReference* GetSpatialRef() const override {
-        return GDALDataset::FromHandle(source_.get())->GetSpatialRef();
+        return OGRSpatialReference::FromHandle(crs_.get());
     }
 
 private:
     Dataset source_;
+    SpatialReference crs_;
     std::array<double, 6> transform_;
 };
 
@@ -341,6 +365,11 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
         return invalid(path,
                        "is in degrees of a rotated pole, not of the earth; reproject it with "
                        "gdalwarp -t_srs EPSG:4326 first");
+    if (crs != nullptr && OSRIsGeocentric(crs) != 0)
+        return invalid(path, fmt::format("its CRS ({}) counts from the earth's centre, so its "
+                                         "pixels are no map; give it the right one (gdal_edit.py "
+                                         "-a_srs)",
+                                         OSRGetName(crs)));
     ASSIGN_OR_RETURN(const ValueRule rule, valueRule(path, band, crs, file.notes));
     file.isRounded = rule.isRounded;
     std::array<double, 6> ignored{};
@@ -348,12 +377,13 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
     ASSIGN_OR_RETURN(file.reference, georeferenceOf(path, dataset.get(), file.notes));
     if (crs != nullptr)
         file.crs.reset(OSRClone(crs));
-    cutToOneTurn(crs, file.reference, file.columns);
+    RETURN_IF_ERROR(turnToDegrees(path, file.crs.get(), file.reference, file.notes));
+    cutToOneTurn(file.crs.get(), file.reference, file.columns);
     ASSIGN_OR_RETURN(file.hash, rasterHash(path, dataset.get(), hashFolder, stop));
     const auto impossible = std::make_shared<std::optional<ImpossibleHeight>>();
     file.impossible = impossible;
-    file.dataset.reset(GDALDataset::ToHandle(
-        new HeightDataset(std::move(dataset), file.reference, file.columns, rule, impossible)));
+    file.dataset.reset(GDALDataset::ToHandle(new HeightDataset(
+        std::move(dataset), file.crs.get(), file.reference, file.columns, rule, impossible)));
     return file;
 }
 

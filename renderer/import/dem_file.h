@@ -29,7 +29,7 @@ struct DemFile {
     Dataset dataset;
     int columns = 0;
     int rows = 0;
-    Georeference reference;  ///< in units of the CRS
+    Georeference reference;  ///< in units of the CRS, degrees of a geographic one
     bool isGeoreferenced = false;
     SpatialReference crs;    ///< null: none
     std::uint64_t hash = 0;  ///< XXH64 of the bytes of all its files

@@ -18,6 +18,7 @@
 #include "renderer/import/dem_warp.h"
 #include "renderer/import/joined_dems.h"
 #include "renderer/import/layered_dems.h"
+#include "renderer/import/length_caveat.h"
 #include "renderer/import/local_projection.h"
 
 namespace eyrie::import {
@@ -297,12 +298,12 @@ private:
             layer.box.column -= all.column;
             layer.box.row -= all.row;
         }
+        const Georeference inUnits{Vec2(grid_.x + grid_.width * static_cast<double>(all.column),
+                                        grid_.y - grid_.height * static_cast<double>(all.row)),
+                                   Vec2(grid_.width, 0), Vec2(0, -grid_.height)};
         const double metres = crs_ ? OSRGetLinearUnits(crs_.get(), nullptr) : 1;
-        const Georeference reference{Vec2(grid_.x + grid_.width * static_cast<double>(all.column),
-                                          grid_.y - grid_.height * static_cast<double>(all.row)) *
-                                         metres,
-                                     Vec2(grid_.width, 0) * metres,
-                                     Vec2(0, -grid_.height) * metres};
+        const Georeference reference{inUnits.origin * metres, inUnits.perColumn * metres,
+                                     inUnits.perRow * metres};
         notes_.push_back(fmt::format("brought to {}: {} x {} posts, {:.4g} m apart", grid,
                                      all.columns, all.rows, reference.perColumn.x));
         if (const double share = placed_ / postsOf(all); share < kMostlyEmpty)
@@ -310,6 +311,8 @@ private:
                 fmt::format("at most {:.2g} % of these posts are of a raster; what lies far apart "
                             "is better imported as terrains of their own, for one scene",
                             100 * share));
+        if (caveat_.empty())
+            caveat_ = lengthCaveat(crs_.get(), inUnits, all.columns, all.rows);
         if (!caveat_.empty())
             notes_.push_back(caveat_);
         return DemSource{layeredDems(std::move(layers), reference, all.columns, all.rows),
@@ -322,7 +325,7 @@ private:
     std::vector<std::size_t> order_;  ///< best first
     SpatialReference crs_;
     double aroundTheEarth_ = 0;  ///< LocalProjection::aroundTheEarth
-    std::string caveat_;         ///< of the CRS, for people
+    std::string caveat_;         ///< of lengths in the CRS, for people
     std::string wkt_;            ///< of `crs_`, in whose units `grid_` is
     PixelGrid grid_;
     std::optional<PixelBox> extent_;  ///< of all that have been placed

@@ -10,6 +10,7 @@
 #include "renderer/import/dem_file.h"
 #include "renderer/import/dem_mosaic.h"
 #include "renderer/import/layered_dems.h"
+#include "renderer/import/length_caveat.h"
 
 namespace eyrie::import {
 namespace {
@@ -31,6 +32,9 @@ absl::StatusOr<DemSource> openAsItIs(DemFile file) {
     }
     const int columns = file.columns;
     const int rows = file.rows;
+    std::string caveat = lengthCaveat(file.crs.get(), file.reference, columns, rows);
+    if (!caveat.empty())
+        source.notes.push_back(std::move(caveat));
     std::vector<DemLayer> layers(1);
     layers.front().box = {0, 0, columns, rows};
     layers.front().files.push_back(std::move(file));

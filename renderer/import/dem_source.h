@@ -27,7 +27,7 @@ struct DemSource {
 ///
 /// Posts are pixel centres. One raster in a projected CRS, or none, keeps its grid, rotation
 /// included, with units turned to metres. A geographic one is reprojected to what suits
-/// its size and place (local_projection.h; the UTM zone of its centre up to 30 degrees),
+/// its size and place (local_projection.h; as a rule the UTM zone of its centre up to 30 degrees),
 /// bilinearly, at the spacing GDAL suggests; of more than 360 degrees what goes on is left out.
 ///
 /// Several are laid over each other: the CRS is that of the finest projected one, or what
@@ -46,9 +46,9 @@ struct DemSource {
 /// Reports as "checking" while it reads the files for their hash, unless that is in `hashFolder`
 /// (fileHash; empty: there is none). Errors, naming file and field:
 /// NotFound, InvalidArgument (no raster, not heights, less than 2 x 2 posts, no usable
-/// georeference or one by control points, not to be brought together), ResourceExhausted (more
-/// posts than an .eyt holds). Posts that cannot be read are DataLoss. Nothing is printed, no
-/// file is written.
+/// georeference or one by control points, a CRS of no map, not to be brought together),
+/// ResourceExhausted (more posts than an .eyt holds). Posts that cannot be read are DataLoss.
+/// Nothing is printed, no file is written.
 absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
                                    const ImportControl& control,
                                    const std::string& hashFolder = "");

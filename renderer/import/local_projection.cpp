@@ -48,7 +48,22 @@ SpatialReference named(const std::string& name, OGRSpatialReferenceH geographic)
     return OSRCopyGeogCSFrom(crs.get(), geographic) == OGRERR_NONE ? std::move(crs) : nullptr;
 }
 
+LocalProjection transverseMercator(OGRSpatialReferenceH geographic, const Vec2& centre) {
+    LocalProjection result{named(fmt::format("Transverse Mercator around {:.4g}, {:.4g}",
+                                             within180(centre.x), centre.y),
+                                 geographic),
+                           {}};
+    if (result.crs &&
+        OSRSetTM(result.crs.get(), centre.y, within180(centre.x), 1, 0, 0) != OGRERR_NONE)
+        result.crs = nullptr;
+    return result;
+}
+
 LocalProjection utm(OGRSpatialReferenceH geographic, const Vec2& centre) {
+    // Zones count from Greenwich, and PROJ has them of ellipsoids only.
+    if (OSRGetPrimeMeridian(geographic, nullptr) != 0 ||
+        OSRGetInvFlattening(geographic, nullptr) == 0)
+        return transverseMercator(geographic, centre);
     const int zone = std::clamp(static_cast<int>((within180(centre.x) + 180) / 6) + 1, 1, 60);
     const bool isNorth = centre.y >= 0;
     LocalProjection result{
@@ -58,9 +73,11 @@ LocalProjection utm(OGRSpatialReferenceH geographic, const Vec2& centre) {
     return result;
 }
 
-LocalProjection polarStereographic(bool isNorth) {
-    LocalProjection result{SpatialReference(OSRNewSpatialReference(nullptr)), {}};
-    if (OSRImportFromEPSG(result.crs.get(), isNorth ? 32661 : 32761) != OGRERR_NONE)
+/// With UPS's scale and origin, of whatever body.
+LocalProjection polarStereographic(OGRSpatialReferenceH geographic, bool isNorth) {
+    LocalProjection result{named(isNorth ? "UPS North" : "UPS South", geographic), {}};
+    if (result.crs &&
+        OSRSetPS(result.crs.get(), isNorth ? 90 : -90, 0, 0.994, 2e6, 2e6) != OGRERR_NONE)
         result.crs = nullptr;
     return result;
 }
@@ -97,7 +114,7 @@ LocalProjection projectionFor(OGRSpatialReferenceH geographic, const GeographicB
     const Vec2 centre = box.centre();
     const Vec2 span = box.span();
     if (std::abs(centre.y) > kUtmLimitDegrees && span.y <= kMostUtmDegrees)
-        return polarStereographic(centre.y > 0);
+        return polarStereographic(geographic, centre.y > 0);
     if (span.x <= kMostUtmDegrees && span.y <= kMostUtmDegrees)
         return utm(geographic, centre);
     const double farthest = farthestFrom(centre, box);

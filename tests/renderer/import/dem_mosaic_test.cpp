@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gdal_priv.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -198,6 +200,54 @@ TEST_F(DemMosaic, AllInDegreesGoesToTheZoneOfTheirMiddle) {
     EXPECT_THAT(dem->crsWkt, HasSubstr("UTM zone 32N"));
     const auto middle = dem->grid.at(dem->grid.columns / 2, dem->grid.rows / 2);
     EXPECT_EQ(middle, 5) << "no gap where the two meet";
+}
+
+/// Jakarta lies 106.8 degrees from Greenwich, and 0 to 0.4 from its own meridian.
+TEST_F(DemMosaic, NamesNoZoneOfLongitudesFromAnotherMeridian) {
+    const auto dem = test::readDem(write({.epsg = 4813,
+                                          .west = 0,
+                                          .north = -6.1,
+                                          .pixel = 0.01,
+                                          .columns = 40,
+                                          .rows = 40,
+                                          .height = constant(5)}));
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_THAT(dem->crsWkt, HasSubstr("Transverse Mercator around 0.2, -6.3"));
+    EXPECT_THAT(dem->crsWkt, testing::Not(HasSubstr("UTM")));
+    EXPECT_EQ(dem->grid.at(dem->grid.columns / 2, dem->grid.rows / 2), 5);
+}
+
+/// 9 east, 47 north, and all of the earth, as a virtual raster: GeoTIFFs keep degrees only.
+TEST_F(DemMosaic, TakesGradsAndRadiansForWhatTheyAre) {
+    struct Unit {
+        const char* name;
+        double degrees;
+    };
+    for (const Unit& unit : {Unit{"grad", 0.9}, Unit{"radian", 180 / M_PI}}) {
+        const auto read = [&](double west, double north, double pixel, int columns) {
+            const std::string path = folder_.path("angle.vrt");
+            std::ofstream(path) << fmt::format(
+                R"(<VRTDataset rasterXSize="{}" rasterYSize="{}"><SRS>GEOGCS["of {}",)"
+                R"(DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)"
+                R"(PRIMEM["Greenwich",0],UNIT["{}",{:.17g}]]</SRS>)"
+                R"(<GeoTransform>{:.17g},{:.17g},0,{:.17g},0,{:.17g}</GeoTransform>)"
+                R"(<VRTRasterBand dataType="Float32" band="1"/></VRTDataset>)",
+                columns, columns / 2, unit.name, unit.name, unit.degrees * M_PI / 180,
+                west / unit.degrees, pixel / unit.degrees, north / unit.degrees,
+                -pixel / unit.degrees);
+            return test::readDem(path);
+        };
+        const auto land = read(9, 47, 0.001, 40);
+        ASSERT_TRUE(land.ok()) << land.status();
+        EXPECT_THAT(land->crsWkt, HasSubstr("UTM zone 32N"));
+        EXPECT_NEAR(land->grid.perColumn.x, 84.2, 0.5);  // as many on its diagonal
+        EXPECT_EQ(land->grid.at(land->grid.columns / 2, land->grid.rows / 2), 0);
+        const auto earth = read(-180, 90, 1, 360);
+        ASSERT_TRUE(earth.ok()) << earth.status();
+        EXPECT_EQ(earth->grid.columns, 360);
+        EXPECT_EQ(earth->grid.rows, 180);
+        for (const int column : {1, 180, 358}) EXPECT_EQ(earth->grid.at(column, 90), 0) << column;
+    }
 }
 
 TEST_F(DemMosaic, NamesTheGridOnWhichItHasTooFewPosts) {

@@ -330,6 +330,12 @@ TEST_F(DemSource, RefusesDegreesBeyondThePoles) {
                   absl::StatusCode::kInvalidArgument, "around latitude 200.0");
 }
 
+TEST_F(DemSource, RefusesCoordinatesFromTheEarthsCentre) {
+    expectRefused(
+        virtualRaster("<SRS>EPSG:4978</SRS><GeoTransform>0,30,0,0,0,-30</GeoTransform>", ""),
+        absl::StatusCode::kInvalidArgument, "its CRS (WGS 84) counts from the earth's");
+}
+
 TEST_F(DemSource, RefusesMorePostsThanATerrainHoldsBeforeReading) {
     expectRefused(virtualRaster("", "", "Float32", 200000, 200000),
                   absl::StatusCode::kResourceExhausted, "200000 x 200000");

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
@@ -232,6 +233,41 @@ TEST_F(HardCase26, TilesAroundTheEarthHaveAllOfIt) {
             EXPECT_EQ(found.open, 0) << one.west << ", " << one.columns << " order " << order;
             std::ranges::reverse(tiles);
         }
+    }
+}
+
+/// Weather models' earth, the moon and Mars: every post lies as far from its neighbour as on the
+/// body's ground.
+TEST_F(HardCase26, DegreesOnOtherBodiesAreBroughtToTheirMetres) {
+    struct Case {
+        double radius, inverseFlattening, south;
+        const char* projection;
+    };
+    for (const Case& one : {Case{6371229, 0, 45, "Transverse Mercator around 12, 47"},
+                            Case{1737400, 0, 20, "Transverse Mercator around 12, 22"},
+                            Case{1737400, 0, 86, "UPS North"}, Case{1737400, 0, -90, "UPS South"},
+                            Case{3396190, 169.8944472, 86, "UPS North"}}) {
+        const std::string crs =
+            fmt::format(R"(GEOGCS["body",DATUM["body",SPHEROID["body",{},{}]],)"
+                        R"(PRIMEM["meridian",0],UNIT["degree",0.0174532925199433]])",
+                        one.radius, one.inverseFlattening);
+        const auto dem = test::readDem(write({.crs = crs.c_str(),
+                                              .west = 10,
+                                              .north = one.south + 4,
+                                              .pixel = 0.1,
+                                              .columns = 40,
+                                              .rows = 40,
+                                              .height = constant(5)}));
+        ASSERT_TRUE(dem.ok()) << one.projection << dem.status();
+        EXPECT_THAT(dem->crsWkt, HasSubstr(one.projection));
+        EXPECT_THAT(dem->notes, testing::Not(testing::Contains(HasSubstr("too great or too"))));
+        const double area =
+            one.radius * one.radius * (4 * M_PI / 180) *
+            std::abs(std::sin((one.south + 4) * M_PI / 180) - std::sin(one.south * M_PI / 180));
+        const auto posts = std::ranges::count_if(dem->grid.heights, [](float h) { return h == 5; });
+        EXPECT_NEAR(static_cast<double>(posts) * dem->grid.perColumn.x * dem->grid.perRow.y / area,
+                    1, 0.05)
+            << one.projection;
     }
 }
 
