@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -86,15 +88,26 @@ JsonObject toJson(const fabric::PickedPoint& point, const std::string& object) {
         .number("farthestMetres", point.farthestMetres)
         .number("pixelMetres", point.pixelMetres);
     if (point.elevationMetres)
-        json.number("elevationMetres", *point.elevationMetres);
+        json.number("elevationMetres", *point.elevationMetres)
+            .number("elevationErrorMetres", point.elevationErrorMetres);
     return json;
+}
+
+/// In the digits that the error leaves, with how far off it is so.
+std::string elevationText(double metres, double error) {
+    const double places = error > 0 ? std::ceil(1 - std::log10(error)) : 6;
+    const std::string text =
+        fmt::format("{:.{}f}", metres, static_cast<int>(std::clamp(places, 0.0, 9.0)));
+    const double lost = std::abs(std::strtod(text.c_str(), nullptr) - metres);
+    return fmt::format("{} m, off by {} m at most", text, boundText(error + lost));
 }
 
 void print(const fabric::PickedPoint& point, const std::string& object) {
     const fabric::Vec3& p = point.worldMetres;
     fmt::print("{}\n  at          {:.17g} {:.17g} {:.17g}\n", object, p.x, p.y, p.z);
     if (point.elevationMetres)
-        fmt::print("  elevation   {:.10g} m\n", *point.elevationMetres);
+        fmt::print("  elevation   {}\n",
+                   elevationText(*point.elevationMetres, point.elevationErrorMetres));
     fmt::print("  off by      {} m at most\n", boundText(point.errorMetres));
     fmt::print("  distance    {:.10g} m; the source is met from {:.10g} m on{}\n",
                point.distanceMetres, point.nearestMetres,

@@ -98,7 +98,9 @@ class TileColumns {
 public:
     struct Place {
         Column column;
-        Vec3 normal;  ///< lattice
+        Vec3 normal;         ///< lattice
+        Vec3 corner;         ///< lattice
+        double heightError;  ///< steps, of the triangle's height below the ray
     };
 
     /// In the order in which the ray passes them. `error`: the tile's, in steps.
@@ -178,9 +180,10 @@ private:
             column.comes = column.above0 + column.rise * column.span.begin;
         }
         const double slope = (std::abs(normal.x) + std::abs(normal.y)) / std::abs(normal.z);
-        column.error = error + posts_.twist(a, b, c) + lattice.rounding.z +
-                       slope * std::max(lattice.rounding.x, lattice.rounding.y);
-        places_.push_back({column, normal});
+        const double heightError = error + posts_.twist(a, b, c) +
+                                   slope * std::max(lattice.rounding.x, lattice.rounding.y);
+        column.error = heightError + lattice.rounding.z;
+        places_.push_back({column, normal, corner, heightError});
     }
 
     std::vector<terrain::TileVertex> vertices_;  ///< posts
@@ -258,10 +261,16 @@ private:
     Hit hitOf(const TileColumns::Place& place) const {
         const double t = columns_.hit();
         const fabric::Mat3 linear(worldFromLattice_);
-        const double q = lattice_.ray.at(t).z;
-        return {t, glm::inverse(glm::transpose(linear)) * place.normal,
-                place.column.error * glm::length(linear[2]),
-                index_.heightOriginMetres() + q * index_.heightStepMetres()};
+        // The triangle's own height: the ray's loses its digits where heights are drawn flat.
+        const Vec3 aside = lattice_.ray.at(t) - place.corner;
+        const Vec3& n = place.normal;
+        const double q = place.corner.z - (n.x * aside.x + n.y * aside.y) / n.z;
+        const double elevation = index_.heightOriginMetres() + q * index_.heightStepMetres();
+        const double rounding =
+            16 * kEpsilon * (std::abs(index_.heightOriginMetres()) + std::abs(elevation));
+        return {t, glm::inverse(glm::transpose(linear)) * n,
+                place.column.error * glm::length(linear[2]), elevation,
+                place.heightError * index_.heightStepMetres() + rounding};
     }
 
     absl::StatusOr<std::shared_ptr<const terrain::Page>> readPage(std::uint32_t number) {
