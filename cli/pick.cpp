@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,11 +7,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/bound_text.h"
 #include "cli/commands.h"
 #include "cli/config_options.h"
 #include "cli/json_object.h"
 #include "cli/load_scene.h"
+#include "cli/pick_text.h"
 #include "cli/picture_source.h"
 #include "cli/stop_signal.h"
 #include "cli/text_file.h"
@@ -93,29 +90,6 @@ JsonObject toJson(const fabric::PickedPoint& point, const std::string& object) {
     return json;
 }
 
-/// In the digits that the error leaves, with how far off it is so.
-std::string elevationText(double metres, double error) {
-    const double places = error > 0 ? std::ceil(1 - std::log10(error)) : 6;
-    const std::string text =
-        fmt::format("{:.{}f}", metres, static_cast<int>(std::clamp(places, 0.0, 9.0)));
-    const double lost = std::abs(std::strtod(text.c_str(), nullptr) - metres);
-    return fmt::format("{} m, off by {} m at most", text, boundText(error + lost));
-}
-
-void print(const fabric::PickedPoint& point, const std::string& object) {
-    const fabric::Vec3& p = point.worldMetres;
-    fmt::print("{}\n  at          {:.17g} {:.17g} {:.17g}\n", object, p.x, p.y, p.z);
-    if (point.elevationMetres)
-        fmt::print("  elevation   {}\n",
-                   elevationText(*point.elevationMetres, point.elevationErrorMetres));
-    fmt::print("  off by      {} m at most\n", boundText(point.errorMetres));
-    fmt::print("  distance    {:.10g} m; the source is met from {:.10g} m on{}\n",
-               point.distanceMetres, point.nearestMetres,
-               std::isinf(point.farthestMetres)
-                   ? ", if at all"
-                   : fmt::format(", by {:.10g} m", point.farthestMetres));
-}
-
 absl::Status pick(const Options& options) {
     const StopSignal stop;
     ASSIGN_OR_RETURN(const fabric::PickRequest request, requestOf(options));
@@ -137,7 +111,7 @@ absl::Status pick(const Options& options) {
     if (options.json)
         fmt::print("{}\n", (picked ? toJson(*picked, object) : JsonObject()).str());
     else if (picked)
-        print(*picked, object);
+        fmt::print("{}", pickText(*picked, object));
     else
         fmt::print("nothing\n");
     return absl::OkStatus();
