@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,11 +7,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/bound_text.h"
 #include "cli/commands.h"
 #include "cli/config_options.h"
 #include "cli/json_object.h"
 #include "cli/load_scene.h"
+#include "cli/pick_text.h"
 #include "cli/picture_source.h"
 #include "cli/stop_signal.h"
 #include "cli/text_file.h"
@@ -86,21 +85,9 @@ JsonObject toJson(const fabric::PickedPoint& point, const std::string& object) {
         .number("farthestMetres", point.farthestMetres)
         .number("pixelMetres", point.pixelMetres);
     if (point.elevationMetres)
-        json.number("elevationMetres", *point.elevationMetres);
+        json.number("elevationMetres", *point.elevationMetres)
+            .number("elevationErrorMetres", point.elevationErrorMetres);
     return json;
-}
-
-void print(const fabric::PickedPoint& point, const std::string& object) {
-    const fabric::Vec3& p = point.worldMetres;
-    fmt::print("{}\n  at          {:.17g} {:.17g} {:.17g}\n", object, p.x, p.y, p.z);
-    if (point.elevationMetres)
-        fmt::print("  elevation   {:.10g} m\n", *point.elevationMetres);
-    fmt::print("  off by      {} m at most\n", boundText(point.errorMetres));
-    fmt::print("  distance    {:.10g} m; the source is met from {:.10g} m on{}\n",
-               point.distanceMetres, point.nearestMetres,
-               std::isinf(point.farthestMetres)
-                   ? ", if at all"
-                   : fmt::format(", by {:.10g} m", point.farthestMetres));
 }
 
 absl::Status pick(const Options& options) {
@@ -124,7 +111,7 @@ absl::Status pick(const Options& options) {
     if (options.json)
         fmt::print("{}\n", (picked ? toJson(*picked, object) : JsonObject()).str());
     else if (picked)
-        print(*picked, object);
+        fmt::print("{}", pickText(*picked, object));
     else
         fmt::print("nothing\n");
     return absl::OkStatus();

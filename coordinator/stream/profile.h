@@ -26,7 +26,8 @@ inline constexpr int kMaxSamples = 512;
 absl::Status validate(const ProfileLine& line);
 
 /// Asks what lies topmost at sample `index` of `line`, by looking straight down from above all of a
-/// scene with these bounds, world metres. Its answer's errorMetres is one of height.
+/// scene with these bounds, world metres. Its answer's errorMetres is how far from the source the
+/// point may be, in whatever direction: of a steep wall the height there may be off by far more.
 /// Precondition: 0 <= index < line.samples.
 fabric::PickRequest pickFromAbove(const ProfileLine& line, int index, const fabric::Box& scene);
 

@@ -49,8 +49,9 @@ struct PickedPoint {
     double nearestMetres = 0;
     double farthestMetres = 0;
     double pixelMetres = 0;  ///< height of a pixel at its distance
-    /// Of terrain: its height in its own object space, metres, as not exaggerated.
+    /// Of terrain: its height there in its own object space, metres, as not exaggerated.
     std::optional<double> elevationMetres;
+    double elevationErrorMetres = 0;  ///< how far off that is; 0 without one
 
     bool operator==(const PickedPoint&) const = default;
 };

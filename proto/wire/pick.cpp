@@ -36,9 +36,10 @@ absl::Status check(const fabric::PickedPoint& point) {
             fmt::format("point.object is {}; it must be 0 or more", point.object));
     if (!isFinite(point.worldMetres) || !isFinite(point.normal))
         return absl::InvalidArgumentError("point.position or point.normal is not finite");
-    const bool hasError = point.errorMetres >= 0 && std::isfinite(point.errorMetres) &&
-                          point.pixelMetres >= 0 && std::isfinite(point.pixelMetres) &&
-                          std::isfinite(point.elevationMetres.value_or(0));
+    const bool hasError =
+        point.errorMetres >= 0 && std::isfinite(point.errorMetres) && point.pixelMetres >= 0 &&
+        std::isfinite(point.pixelMetres) && std::isfinite(point.elevationMetres.value_or(0)) &&
+        point.elevationErrorMetres >= 0 && std::isfinite(point.elevationErrorMetres);
     const bool isInOrder =
         std::isfinite(point.nearestMetres) && std::isfinite(point.distanceMetres) &&
         point.nearestMetres <= point.distanceMetres && point.distanceMetres <= point.farthestMetres;
@@ -95,6 +96,7 @@ v1::PickedPoint toMessage(const fabric::PickedPoint& point) {
     message.set_pixel(point.pixelMetres);
     if (point.elevationMetres)
         message.set_elevation(*point.elevationMetres);
+    message.set_elevation_error(point.elevationErrorMetres);
     return message;
 }
 
@@ -110,6 +112,7 @@ absl::StatusOr<fabric::PickedPoint> fromMessage(const v1::PickedPoint& message) 
     point.pixelMetres = message.pixel();
     if (message.has_elevation())
         point.elevationMetres = message.elevation();
+    point.elevationErrorMetres = message.elevation_error();
     RETURN_IF_ERROR(check(point));
     return point;
 }

@@ -51,6 +51,7 @@ fabric::PickedPoint pointOf(const fabric::PickRequest& request, const Ray& ray, 
     const fabric::Frustum frustum = frustumOf(request);
     point.pixelMetres = hit.t * (frustum.top - frustum.bottom) / request.viewHeight;
     point.elevationMetres = hit.elevationMetres;
+    point.elevationErrorMetres = hit.elevationErrorMetres;
     return point;
 }
 

@@ -22,6 +22,7 @@ struct Hit {
     fabric::Vec3 normal{0, 0, 1};  ///< world; any length, either side
     double errorMetres = 0;        ///< world; how far the source's surface may be from it
     std::optional<double> elevationMetres;
+    double elevationErrorMetres = 0;  ///< object
 };
 
 /// What a ray meets of one object.

@@ -32,14 +32,9 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 /// A ray in lattice space: columns, rows and steps of height.
 struct LatticeRay {
-    LatticeRay(const Ray& world, const fabric::Mat4& worldFromLattice)
+    /// `last`: the posts' last column and row.
+    LatticeRay(const Ray& world, const fabric::Mat4& worldFromLattice, const fabric::Vec2& last)
         : ray(inFrame(world, worldFromLattice)) {
-        // A tilt of 1e-20 is beyond any rounding, and leaves every ray a way along the ground.
-        const double least = 1e-20 * std::abs(ray.direction.z);
-        if (std::max(std::abs(ray.direction.x), std::abs(ray.direction.y)) < least)
-            ray.direction.x = least;
-        along = fabric::Vec2(ray.direction);
-        alongSquared = glm::dot(along, along);
         const fabric::Mat3 inverse = glm::inverse(fabric::Mat3(worldFromLattice));
         const double metres = glm::length(world.origin) + glm::length(Vec3(worldFromLattice[3]));
         for (int row = 0; row < 3; ++row) {
@@ -47,6 +42,27 @@ struct LatticeRay {
                 std::abs(inverse[0][row]) + std::abs(inverse[1][row]) + std::abs(inverse[2][row]);
             rounding[row] = 16 * kEpsilon * (reach * metres + std::abs(ray.origin[row]));
         }
+        if (std::max(std::abs(ray.direction.x), std::abs(ray.direction.y)) < leastTilt())
+            tilt(last);
+        along = fabric::Vec2(ray.direction);
+        alongSquared = glm::dot(along, along);
+    }
+
+    /// Beyond any rounding, and leaves every ray a way along the ground.
+    double leastTilt() const { return 1e-20 * std::abs(ray.direction.z); }
+
+    /// Inwards, so that rays on a border have their way over the terrain, too: straight from the
+    /// nearest border, as no other way along it starts at 0 however crossings are rounded, and a
+    /// trifle aside, for corners. What rounding took out over a border is put back on it.
+    void tilt(const fabric::Vec2& last) {
+        const fabric::Vec2 inside = glm::clamp(fabric::Vec2(ray.origin), fabric::Vec2(0), last);
+        if (std::abs(inside.x - ray.origin.x) <= rounding.x &&
+            std::abs(inside.y - ray.origin.y) <= rounding.y)
+            ray.origin = Vec3(inside, ray.origin.z);
+        const fabric::Vec2 inwards = last / 2.0 - fabric::Vec2(ray.origin);
+        const bool isByX = std::abs(inwards.x) * last.y >= std::abs(inwards.y) * last.x;
+        ray.direction.x = std::copysign(leastTilt() * (isByX ? 1 : 1e-20), inwards.x);
+        ray.direction.y = std::copysign(leastTilt() * (isByX ? 1e-20 : 1), inwards.y);
     }
 
     /// Positive for points to one side of the ray seen from above. Of a point it is the same in
@@ -82,7 +98,9 @@ class TileColumns {
 public:
     struct Place {
         Column column;
-        Vec3 normal;  ///< lattice
+        Vec3 normal;         ///< lattice
+        Vec3 corner;         ///< lattice
+        double heightError;  ///< steps, of the triangle's height below the ray
     };
 
     /// In the order in which the ray passes them. `error`: the tile's, in steps.
@@ -162,9 +180,10 @@ private:
             column.comes = column.above0 + column.rise * column.span.begin;
         }
         const double slope = (std::abs(normal.x) + std::abs(normal.y)) / std::abs(normal.z);
-        column.error = error + posts_.twist(a, b, c) + lattice.rounding.z +
-                       slope * std::max(lattice.rounding.x, lattice.rounding.y);
-        places_.push_back({column, normal});
+        const double heightError = error + posts_.twist(a, b, c) +
+                                   slope * std::max(lattice.rounding.x, lattice.rounding.y);
+        column.error = heightError + lattice.rounding.z;
+        places_.push_back({column, normal, corner, heightError});
     }
 
     std::vector<terrain::TileVertex> vertices_;  ///< posts
@@ -182,7 +201,8 @@ public:
         : file_(file),
           index_(file.index()),
           worldFromLattice_(worldFromLattice),
-          lattice_(ray, worldFromLattice),
+          lattice_(ray, worldFromLattice,
+                   {index_.quadtree.columns() - 1, index_.quadtree.rows() - 1}),
           options_(options) {}
 
     absl::StatusOr<Cast> go() {
@@ -241,10 +261,16 @@ private:
     Hit hitOf(const TileColumns::Place& place) const {
         const double t = columns_.hit();
         const fabric::Mat3 linear(worldFromLattice_);
-        const double q = lattice_.ray.at(t).z;
-        return {t, glm::inverse(glm::transpose(linear)) * place.normal,
-                place.column.error * glm::length(linear[2]),
-                index_.heightOriginMetres() + q * index_.heightStepMetres()};
+        // The triangle's own height: the ray's loses its digits where heights are drawn flat.
+        const Vec3 aside = lattice_.ray.at(t) - place.corner;
+        const Vec3& n = place.normal;
+        const double q = place.corner.z - (n.x * aside.x + n.y * aside.y) / n.z;
+        const double elevation = index_.heightOriginMetres() + q * index_.heightStepMetres();
+        const double rounding =
+            16 * kEpsilon * (std::abs(index_.heightOriginMetres()) + std::abs(elevation));
+        return {t, glm::inverse(glm::transpose(linear)) * n,
+                place.column.error * glm::length(linear[2]), elevation,
+                place.heightError * index_.heightStepMetres() + rounding};
     }
 
     absl::StatusOr<std::shared_ptr<const terrain::Page>> readPage(std::uint32_t number) {

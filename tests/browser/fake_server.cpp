@@ -183,6 +183,7 @@ fabric::Picked pick(const fabric::PickRequest& request) {
     point.farthestMetres = point.distanceMetres + 2.5;
     point.pixelMetres = 0.1;
     point.elevationMetres = 1234.56;
+    point.elevationErrorMetres = 0.25;
     return point;
 }
 

@@ -136,8 +136,8 @@ await run("tools_test", async (browser, started) => {
   await page.keyboard.press("v");
   await page.locator("#measure .chart").waitFor();
   check(
-    (await page.locator("#measure").innerText()).includes("off by 255 mm at most"),
-    "V draws the heights along the last line, with their error",
+    (await page.locator("#measure").innerText()).includes("within 255 mm of the source"),
+    "V draws the heights along the last line, with their points' error",
   );
   await page.getByLabel("Place along the line").focus();
   await page.keyboard.press("ArrowRight");

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a line of sight meets of the finest data, held against double-precision rays at the source:
 // the truth's own, which share no code with it.
+#include <cmath>
 #include <cstdint>
 #include <random>
+#include <string>
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "renderer/import/mesh_synth.h"
+#include "renderer/import/terrain_import.h"
 #include "tests/integration/pick_pair.h"
 #include "tests/renderer/lod/wall.h"
 #include "tests/renderer/terrain/hard_grids.h"
@@ -117,12 +120,19 @@ TEST(HardCase22, PicksOfRoughlyRoundedMeshesAreWhereRaysMeetTheSource) {
     }
 }
 
+void holdElevation(const fabric::PickedPoint& point, float height) {
+    EXPECT_LE(std::abs(*point.elevationMetres - static_cast<double>(height)),
+              point.elevationErrorMetres);
+    EXPECT_LT(point.elevationErrorMetres, 0.2);
+    EXPECT_NEAR(*point.elevationMetres, height, 0.01);
+}
+
 TEST(HardCase22, PicksOfExaggeratedTerrainAreWhereRaysMeetTheSource) {
     const test::TemporaryFolder folder;
     std::mt19937 engine(24);
     const terrain::HeightGrid grid = test::hardGrid(GridKind::Smooth, 90, 90, 5);
     const fabric::Vec2 middle = grid.origin + grid.perColumn * 45.0 + grid.perRow * 45.0;
-    for (const double exaggeration : {-1.0, 0.125, 4.0}) {
+    for (const double exaggeration : {-1.0, 0.0, 1e-3, 0.125, 4.0}) {
         const PickPair pair = terrainPair(folder, grid, exaggeration);
         const Vec3 ground(middle.x, middle.y, static_cast<double>(grid.at(45, 45)) * exaggeration);
         PickTally tally;
@@ -131,9 +141,28 @@ TEST(HardCase22, PicksOfExaggeratedTerrainAreWhereRaysMeetTheSource) {
                 pair.hold(camera, place, tally);
         EXPECT_EQ(tally.slipped, 0);
         EXPECT_GT(tally.picked, 150);
-        const auto level = pair.pick({ground + Vec3(0, -1, 5000), ground}, {640, 360});
+        const auto level = pair.pick({ground + Vec3(0, 0, 1e6), ground, {0, 1, 0}}, {640, 360});
         ASSERT_TRUE(level.ok() && level->has_value());
-        EXPECT_NEAR(*(*level)->elevationMetres, grid.at(45, 45), 0.1);
+        holdElevation(**level, grid.at(45, 45));
+    }
+}
+
+TEST(HardCase22, PicksOfScaledTerrainTellItsOwnElevation) {
+    const test::TemporaryFolder folder;
+    const terrain::HeightGrid grid = test::hardGrid(GridKind::Smooth, 90, 90, 5);
+    const std::string path = folder.path("terrain.eyt");
+    ASSERT_TRUE(import::importTerrain(grid, {"grid", "", 0}, path, {}).ok());
+    const fabric::Vec2 at = grid.origin + grid.perColumn * 45.0 + grid.perRow * 45.0;
+    for (const double scale : {0.001, 50.0}) {
+        const auto picker =
+            test::openPicker({.name = "scaled",
+                              .kind = fabric::ObjectKind::Terrain,
+                              .path = path,
+                              .worldFromObject = glm::scale(fabric::Mat4(1), Vec3(1, 1, scale))});
+        const auto picked =
+            picker->pick({{{at.x, at.y, 90'000}, {at.x, at.y, 0}, {0, 1, 0}}, 100, 100, {50, 50}});
+        ASSERT_TRUE(picked.ok() && picked->has_value()) << scale;
+        holdElevation(**picked, grid.at(45, 45));
     }
 }
 

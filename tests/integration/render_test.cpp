@@ -382,6 +382,7 @@ TEST_F(Render, WhatAPixelShowsIsWhereItsDepthSays) {
         EXPECT_NEAR(number(point, "distanceMetres"), depth * perDepth, depth * 0.02);
         EXPECT_LE(number(point, "nearestMetres"), number(point, "distanceMetres"));
         EXPECT_NEAR(number(point, "elevationMetres"), number(at(point, "position"), "z"), 1e-6);
+        EXPECT_NEAR(number(point, "elevationErrorMetres"), number(point, "errorMetres"), 1e-6);
     }
     EXPECT_EQ(picked("640,0").output, "{}\n");
     EXPECT_EQ(picked("1280,0").exit, (test::Exit{2, 0}));

@@ -7,7 +7,7 @@ import type { MeasuredPoint } from "./measure";
 import { mapArea, mapLength, pathLength, rise } from "./measure";
 import { axis, bandOf, logAxis } from "./panel/chart";
 import { areaWithError, lengthWithError } from "./panel/format";
-import { overlayRuns, rowsOf } from "./panel/measure";
+import { captionOf, overlayRuns, rowsOf } from "./panel/measure";
 import { errorDrawing, speedErrorDrawing, stagesDrawing } from "./panel/plots";
 import { chartOf, heightAlong } from "./profile";
 import { bandwidth } from "./view/history";
@@ -107,6 +107,13 @@ describe("a profile", () => {
     expect([chart.lowest, chart.highest]).toEqual([0, 30]);
     expect(chart.error).toBe(0.5);
     expect(chart.runs.map((run) => run.map(([way]) => way))).toEqual([[0, 5], [15]]);
+  });
+
+  it("says how near its points are to the source, not how far off heights", () => {
+    const chart = chartOf({ from: [0, 0, 0], to: [9, 12, 0], samples });
+    expect(captionOf(chart)).toBe(
+      "0.00 m to 30.00 m; each point within 505 mm of the source, in whatever direction",
+    );
   });
 
   it("tells the height of the nearest sample", () => {

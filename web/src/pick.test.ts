@@ -37,6 +37,7 @@ const answer = create(ViewerPickedSchema, {
     nearest: 11.5,
     farthest: 14,
     elevation: 1234.567,
+    elevationError: 0.03,
   },
 });
 
@@ -149,7 +150,7 @@ describe("an answer", () => {
     const { title, rows } = textOf(pickOf(answer, ["valley", "hill"], 1));
     expect(title).toBe("hill");
     expect(rows.map(([name, value]) => `${name}: ${value}`)).toEqual([
-      "Elevation: 1234.567 m",
+      "Elevation: 1234.567 m ± 30 mm",
       "x, y, z: 1.000, 2.000, 3.000",
       "Off by: 20 mm at most",
       "Distance: 12 m",

@@ -118,6 +118,7 @@ export function pickOf(
     object: objectNames[point.object] ?? "",
     position: [x, y, z],
     elevation: point.elevation,
+    elevationError: point.elevationError,
     error: point.error,
     distance: point.distance,
     nearest: point.nearest,

@@ -7,7 +7,7 @@ import type { ViewerProfiled } from "./protocol/messages";
 
 export interface ProfileSample {
   position: Vec3;
-  /** Of its height, metres. */
+  /** The source's surface is so near to it, in whatever direction, metres. */
   error: number;
 }
 
@@ -23,7 +23,7 @@ export interface ProfileChart {
   length: number;
   lowest: number;
   highest: number;
-  /** The largest of the heights' errors. */
+  /** The largest of the points' errors. */
   error: number;
   /** Of points one after the other: way from the start and height, metres. */
   runs: [number, number][][];

@@ -106,6 +106,8 @@ export interface PickedPoint {
   position: Vec3;
   /** Of terrain, not exaggerated. */
   elevation: number | undefined;
+  /** Of the elevation, in the terrain's own metres. */
+  elevationError: number;
   /** The source's surface is so near to it. */
   error: number;
   /** From the eye; and between which distances the line of sight meets the source. */

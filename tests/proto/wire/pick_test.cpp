@@ -14,7 +14,9 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-fabric::PickedPoint point() { return {3, {1, 2, 3}, {0, 0, 1}, 17, 0.5, 16, 19, 0.02, 412.5}; }
+fabric::PickedPoint point() {
+    return {3, {1, 2, 3}, {0, 0, 1}, 17, 0.5, 16, 19, 0.02, 412.5, 0.25};
+}
 
 TEST(WirePick, RequestsComeBackAsTheyWere) {
     const fabric::PickRequest request{{{1, 2, 3}, {4, 5, 6}}, 640, 480, {0.5, 480}, 2.5, {{0, 4}}};
@@ -49,6 +51,7 @@ TEST(WirePick, PointsComeBackAsTheyWere) {
     EXPECT_EQ(fromMessage(toMessage(point())).value(), point());
     fabric::PickedPoint bare = point();
     bare.elevationMetres.reset();
+    bare.elevationErrorMetres = 0;
     bare.farthestMetres = std::numeric_limits<double>::infinity();
     EXPECT_EQ(fromMessage(toMessage(bare)).value(), bare);
 }
@@ -65,6 +68,7 @@ TEST(WirePick, PointsThatCannotBeAreRefused) {
     EXPECT_TRUE(isRefused([](auto& m) { m.set_nearest(18); }));
     EXPECT_TRUE(isRefused([](auto& m) { m.set_farthest(kNan); }));
     EXPECT_TRUE(isRefused([](auto& m) { m.set_elevation(kNan); }));
+    EXPECT_TRUE(isRefused([](auto& m) { m.set_elevation_error(-1); }));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 import type { Measure, MeasuredPoint } from "../measure";
 import { mapArea, mapLength, pathLength, rise } from "../measure";
 import { appearance } from "../pick";
-import type { Profile } from "../profile";
+import type { Profile, ProfileChart } from "../profile";
 import { chartOf, heightAlong } from "../profile";
 import type { Shown } from "../protocol/messages";
 import type { State } from "../state";
@@ -86,6 +86,15 @@ function keepOverlay(state: State): void {
   state.shown.watch(update);
 }
 
+const heightText = (height: number, error: number): string => `${coordinate(height, error)} m`;
+
+/** What a profile's heights are worth: where the source is steep they may be off by more. */
+export function captionOf({ lowest, highest, error }: ProfileChart): string {
+  const off = error + 10 ** -digitsOf(error) / 2; // as they are written
+  const range = `${heightText(lowest, error)} to ${heightText(highest, error)}`;
+  return `${range}; each point within ${lengthAtMost(off)} of the source, in whatever direction`;
+}
+
 /** A chart of heights, and a slider that reads it. */
 function profileChart(profile: Profile): HTMLElement {
   const chart = chartOf(profile);
@@ -103,7 +112,6 @@ function profileChart(profile: Profile): HTMLElement {
     pathOf(run.map(([way, height]) => [x(way), 2 + y(height)])),
   );
   image.append(svg("path", { class: "line", d: lines.join("") }), cursor);
-  const digits = (height: number): string => `${coordinate(height, chart.error)} m`;
   const slider = make("input", "slider");
   slider.type = "range";
   slider.min = "0";
@@ -115,7 +123,7 @@ function profileChart(profile: Profile): HTMLElement {
   const read = (): void => {
     const share = Number(slider.value);
     const height = heightAlong(profile, share);
-    const text = `${longText(share * chart.length)} along: ${height === undefined ? "nothing" : digits(height)}`;
+    const text = `${longText(share * chart.length)} along: ${height === undefined ? "nothing" : heightText(height, chart.error)}`;
     setText(reading, text);
     slider.setAttribute("aria-valuetext", text);
     cursor.setAttribute("d", `M${(share * chartWidth).toFixed(1)},0v${chartHeight}`);
@@ -123,8 +131,7 @@ function profileChart(profile: Profile): HTMLElement {
   slider.addEventListener("input", read);
   read();
   const ends = make("figcaption", "note");
-  const off = chart.error + 10 ** -digitsOf(chart.error) / 2; // as they are written
-  ends.textContent = `${digits(chart.lowest)} to ${digits(chart.highest)}, off by ${lengthAtMost(off)} at most`;
+  ends.textContent = captionOf(chart);
   figure.append(image, slider, reading, ends);
   return figure;
 }

@@ -13,9 +13,14 @@ export interface PickText {
 }
 
 /** How far the source's surface may be from the point as it is written. */
-function offAsWritten({ position, elevation, error }: PickedPoint): number {
-  const lost = (value: number): number => lostOf(coordinate(value, error), value);
-  return error + Math.max(Math.hypot(...position.map(lost)), lost(elevation ?? 0));
+function offAsWritten({ position, error }: PickedPoint): number {
+  return error + Math.hypot(...position.map((value) => lostOf(coordinate(value, error), value)));
+}
+
+/** In metres, however high: "1234.567 m ± 20 mm". */
+function elevationText(elevation: number, error: number): string {
+  const text = coordinate(elevation, error);
+  return `${text} m ± ${lengthAtMost(error + lostOf(text, elevation))}`;
 }
 
 function rowsOf(point: PickedPoint): PickText["rows"] {
@@ -30,7 +35,7 @@ function rowsOf(point: PickedPoint): PickText["rows"] {
       : [
           [
             "Elevation",
-            `${coordinate(point.elevation, point.error)} m`,
+            elevationText(point.elevation, point.elevationError),
             "In the terrain's own heights, not exaggerated",
           ] as const,
         ]),
