@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "access/printable.h"
 #include "cli/crs_notes.h"
 #include "cli/placement.h"
 #include "cli/text_file.h"
@@ -28,7 +29,8 @@ namespace fs = std::filesystem;
 fabric::SceneObject objectOf(const std::string& path) {
     const DataFile file = dataFileOf(path);
     const bool mesh = file == DataFile::Mesh || file == DataFile::MeshSource;
-    return {.name = fs::path(page::withoutQuery(path)).stem().string(),
+    const std::string name = fs::path(page::withoutQuery(path)).stem().string();
+    return {.name = access::isUtf8(name) ? name : access::printable(name),
             .kind = mesh ? fabric::ObjectKind::Mesh : fabric::ObjectKind::Terrain,
             .path = path};
 }

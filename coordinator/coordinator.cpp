@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "access/printable.h"
 #include "coordinator/api/api.h"
 #include "coordinator/api/grpc_service.h"
 #include "coordinator/api/state_file.h"
@@ -110,8 +111,23 @@ private:
     std::jthread watcher_;
 };
 
+namespace {
+
+/// Whether renderers can be told of it: messages have text in UTF-8 only.
+absl::Status check(const fabric::Scene& scene) {
+    RETURN_IF_ERROR(fabric::validate(scene));
+    for (const fabric::SceneObject& object : scene.objects)
+        for (const std::string& text : {object.path, object.name})
+            if (!access::isUtf8(text))
+                return absl::InvalidArgumentError(
+                    fmt::format("{} is not UTF-8; rename the file", access::printable(text)));
+    return absl::OkStatus();
+}
+
+}  // namespace
+
 absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::start(const CoordinatorOptions& options) {
-    RETURN_IF_ERROR(fabric::validate(options.scene));
+    RETURN_IF_ERROR(check(options.scene));
     if (options.grpcAddresses.empty())
         return absl::InvalidArgumentError(
             "the coordinator has no address for renderers to register at");
@@ -143,7 +159,7 @@ const std::vector<std::string>& Coordinator::grpcAddresses() const {
 }
 
 absl::Status Coordinator::setScene(fabric::Scene scene) {
-    RETURN_IF_ERROR(fabric::validate(scene));
+    RETURN_IF_ERROR(check(scene));
     impl_->setScene(std::move(scene));
     return absl::OkStatus();
 }

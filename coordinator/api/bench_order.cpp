@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/api/bench_order.h"
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <fstream>
 #include <system_error>
@@ -24,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMaxRuns = 16;
-constexpr std::array<std::string_view, 3> kBuiltInFlights = {"orbit", "walkthrough", "worst"};
 
 /// `given` or, where it is absent, `usual`.
 absl::StatusOr<int> number(bool isGiven, int given, int usual, const char* field, int least,
@@ -95,7 +92,7 @@ absl::Status addReference(const v1::BenchRequest& request, std::uint64_t memoryB
 
 absl::Status addFlight(const std::string& name, const access::DataFolder& folder,
                        BenchOrder& order) {
-    if (name.empty() || std::ranges::find(kBuiltInFlights, name) != kBuiltInFlights.end()) {
+    if (name.empty() || isBuiltInFlight(name)) {
         order.arguments.push_back("--flight=" + (name.empty() ? "orbit" : name));
         return absl::OkStatus();
     }

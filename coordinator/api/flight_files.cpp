@@ -55,6 +55,10 @@ absl::Status cannot(std::string_view what, const std::error_code& error) {
 
 }  // namespace
 
+bool isBuiltInFlight(std::string_view name) {
+    return name == "orbit" || name == "walkthrough" || name == "worst";
+}
+
 absl::StatusOr<std::vector<std::string>> flightNames(const access::DataFolder& folder) {
     RETURN_IF_ERROR(folder.check());
     std::vector<std::string> names;
@@ -93,6 +97,11 @@ absl::StatusOr<v1::Flight> readFlight(const access::DataFolder& folder, const st
 
 absl::Status writeFlight(const access::DataFolder& folder, const std::string& name,
                          const v1::Flight& flight) {
+    if (isBuiltInFlight(name))
+        return absl::InvalidArgumentError(
+            fmt::format("name is '{}', which `eyrie bench` has a flight of its own for; choose "
+                        "another",
+                        name));
     if (flight.keys_size() > kMaxKeys)
         return absl::InvalidArgumentError(fmt::format(
             "flight.keys has {} keys; at most {} are kept", flight.keys_size(), kMaxKeys));

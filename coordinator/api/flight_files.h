@@ -15,13 +15,16 @@
 /// or written). Any thread: who reads what another writes gets the old or the new, whole.
 namespace eyrie::api {
 
+/// Whether `eyrie bench` has a flight of its own of that name.
+bool isBuiltInFlight(std::string_view name);
+
 /// By name.
 absl::StatusOr<std::vector<std::string>> flightNames(const access::DataFolder& folder);
 
 /// DataLoss: what is in the file is no flight.
 absl::StatusOr<v1::Flight> readFlight(const access::DataFolder& folder, const std::string& name);
 
-/// InvalidArgument: the flight cannot be flown, or has too many keys.
+/// InvalidArgument: the flight cannot be flown, or has too many keys, or the name is built in.
 absl::Status writeFlight(const access::DataFolder& folder, const std::string& name,
                          const v1::Flight& flight);
 

@@ -31,19 +31,38 @@ constexpr int kUsualQuality = 90;
 /// How many pixels take as much memory as one whose colours and depths become text.
 constexpr int kTextShare = 4;
 
+/// Of an answer, in pixels.
+struct AnswerSize {
+    std::int64_t width = 0;
+    std::int64_t height = 0;
+
+    std::int64_t area() const { return width * height; }
+};
+
+/// The sides that are asked for are those of one eye's picture.
+AnswerSize answerSize(const coordinator::FrameRequest& request) {
+    const fabric::PixelViewport drawn = request.drawnPart();
+    const coordinator::Shown& shown = request.shown.front();
+    const auto times = [&](compound::Stereo stereo) {
+        return !shown.eye && shown.stereo == stereo ? 2 : 1;
+    };
+    return {std::int64_t{drawn.width} * times(compound::Stereo::SideBySide),
+            std::int64_t{drawn.height} * times(compound::Stereo::TopBottom)};
+}
+
 /// Of a whole answer.
-absl::Status checkSize(int width, int height, std::int64_t mostPixels) {
-    if (width < 1 || width > kMaxSide)
+absl::Status checkSize(const AnswerSize& size, std::int64_t mostPixels) {
+    if (size.width < 1 || size.width > kMaxSide)
         return absl::InvalidArgumentError(
-            fmt::format("width is {} pixels; it must be from 1 to {}", width, kMaxSide));
-    if (height < 1 || height > kMaxSide)
+            fmt::format("width makes {} pixels; it must be from 1 to {}", size.width, kMaxSide));
+    if (size.height < 1 || size.height > kMaxSide)
         return absl::InvalidArgumentError(
-            fmt::format("height is {} pixels; it must be from 1 to {}", height, kMaxSide));
-    if (std::int64_t{width} * height > mostPixels)
+            fmt::format("height makes {} pixels; it must be from 1 to {}", size.height, kMaxSide));
+    if (size.area() > mostPixels)
         return absl::InvalidArgumentError(
             fmt::format("height makes {}x{} pixels, {} in all; at most {} are drawn at once, and "
                         "more part by part or by `eyrie render`",
-                        width, height, std::int64_t{width} * height, mostPixels));
+                        size.width, size.height, size.area(), mostPixels));
     return absl::OkStatus();
 }
 
@@ -60,18 +79,18 @@ absl::Status checkPart(const coordinator::FrameRequest& request, std::int64_t mo
         return absl::InvalidArgumentError(
             fmt::format("part is {}x{}+{}+{}; it must lie in the picture of {}x{} pixels",
                         part.width, part.height, part.x, part.y, request.width, request.height));
-    return fabric::withContext(checkSize(part.width, part.height, mostPixels), "part");
+    return fabric::withContext(checkSize(answerSize(request), mostPixels), "part");
 }
 
 /// Of an answer as JSON.
 absl::Status checkTextSize(const coordinator::FrameRequest& request) {
-    const fabric::PixelViewport drawn = request.drawnPart();
-    if (drawn.area() <= Quotas::kMostTextPixels)
+    const AnswerSize size = answerSize(request);
+    if (size.area() <= Quotas::kMostTextPixels)
         return absl::OkStatus();
     return absl::InvalidArgumentError(fmt::format(
         "{} makes {}x{} pixels, {} in all, of which JSON has at most {}; ask for the picture's own "
         "bytes, for depths by IMAGE_FORMAT_DEPTH, or part by part",
-        request.part.isEmpty() ? "height" : "part", drawn.width, drawn.height, drawn.area(),
+        request.part.isEmpty() ? "height" : "part", size.width, size.height, size.area(),
         Quotas::kMostTextPixels));
 }
 
@@ -92,6 +111,8 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const v1::RenderImageRequest
     RETURN_IF_ERROR(checkFormat(message));
     const std::int64_t mostPixels = quotas.most().imagePixels;
     coordinator::FrameRequest request;
+    ASSIGN_OR_RETURN(coordinator::Shown shown, stream::shownFromMessage(message.shown()));
+    request.shown = {std::move(shown)};
     request.width = message.has_width() ? message.width() : kUsualWidth;
     request.height = message.has_height() ? message.height() : kUsualHeight;
     if (message.has_part()) {
@@ -99,8 +120,8 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const v1::RenderImageRequest
                         message.part().height()};
         RETURN_IF_ERROR(quotas.counted(observe::Quota::Image, checkPart(request, mostPixels)));
     } else {
-        RETURN_IF_ERROR(quotas.counted(observe::Quota::Image,
-                                       checkSize(request.width, request.height, mostPixels)));
+        RETURN_IF_ERROR(
+            quotas.counted(observe::Quota::Image, checkSize(answerSize(request), mostPixels)));
     }
     if (asText)
         RETURN_IF_ERROR(quotas.counted(observe::Quota::Image, checkTextSize(request)));
@@ -114,8 +135,6 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const v1::RenderImageRequest
     ASSIGN_OR_RETURN(const fabric::FrameData frameData, wire::fromMessage(data));
     request.tauPixels = frameData.tauPixels;
     request.shading = frameData.shading;
-    ASSIGN_OR_RETURN(coordinator::Shown shown, stream::shownFromMessage(message.shown()));
-    request.shown = {std::move(shown)};
     request.wantsDepth = message.with_depth() || message.format() == v1::IMAGE_FORMAT_DEPTH;
     return request;
 }
@@ -204,7 +223,7 @@ absl::StatusOr<v1::RenderImageResponse> Painter::render(const v1::RenderImageReq
                      requestOf(request, frames_, quotas_, call.asText));
     asked.stop = call.stop;
     const auto share = std::make_shared<PixelShare>(
-        pixelsInUse_, asked.drawnPart().area() * (call.asText ? kTextShare : 1),
+        pixelsInUse_, answerSize(asked).area() * (call.asText ? kTextShare : 1),
         std::min(2 * quotas_.most().imagePixels, Quotas::kMostImagePixels));
     if (!share->isGranted())
         return quotas_.counted(

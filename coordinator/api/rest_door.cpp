@@ -150,6 +150,13 @@ RestAnswer jsonAnswer(const Message& message, const v1::Rest& rest, std::shared_
     return answer;
 }
 
+/// Empty: it has none, as where there is nothing.
+std::string tagOf(const RestAnswer& answer) {
+    const auto isTag = [](const auto& header) { return header.first == "ETag"; };
+    const auto tag = std::ranges::find_if(answer.headers, isTag);
+    return tag == answer.headers.end() ? "" : tag->second;
+}
+
 /// Whether `tags` of a header are "*" or have `etag` among them; W/"…" does not count.
 bool isListed(std::string_view etag, std::string_view tags) {
     const std::size_t at = tags.find(etag);
@@ -251,35 +258,36 @@ RestAnswer RestDoor::call(const RestRequest& request, const FoundRoute& found) c
 RestAnswer RestDoor::change(const RestRequest& request, const FoundRoute& found) const {
     const std::size_t place = std::hash<std::string>()(pathOf(request)) % changing_.size();
     const std::lock_guard lock(changing_[place]);
-    const bool isConditional = !request.ifMatch.empty() || !request.ifNoneMatch.empty();
-    if (isConditional && !isMet(request, tagAt(request)))
-        return problem(
-            absl::FailedPreconditionError(
-                "what is there is not what If-Match or If-None-Match says; ask for it again, and "
-                "see whether the change is still wanted"),
-            412);
+    if (!request.ifMatch.empty() || !request.ifNoneMatch.empty()) {
+        Made before = there(request);
+        if (!before.status.ok() && !absl::IsNotFound(before.status)) {
+            handlers_.note(found.route->call->name(), before.status);
+            return std::move(before.answer);
+        }
+        if (!isMet(request, tagOf(before.answer)))
+            return problem(
+                absl::FailedPreconditionError(
+                    "what is there is not what If-Match or If-None-Match says; ask for it again, "
+                    "and see whether the change is still wanted"),
+                412);
+    }
     RestAnswer answer = call(request, found);
     if (answer.status != 200 || found.route->rest.method() == "DELETE")
         return answer;
-    if (std::string now = tagAt(request); !now.empty())
+    if (std::string now = tagOf(there(request).answer); !now.empty())
         answer.headers.emplace_back("ETag", std::move(now));
     return answer;
 }
 
-/// The ETag of what GET has at the path of `change`; empty: nothing.
-std::string RestDoor::tagAt(const RestRequest& change) const {
+/// What GET has at the path of `change`, of which nobody is told.
+RestDoor::Made RestDoor::there(const RestRequest& change) const {
     RestRequest request;
     request.method = "GET";
     request.target = pathOf(change);
     request.stop = change.stop;
     const FoundRoute found =
         findRoute(request.method, std::string_view(request.target).substr(kPrefix.size()));
-    if (found.route == nullptr)
-        return "";
-    const RestAnswer answer = make(request, found).answer;  // of which nobody is told
-    const auto isTag = [](const auto& header) { return header.first == "ETag"; };
-    const auto tag = std::ranges::find_if(answer.headers, isTag);
-    return tag == answer.headers.end() ? "" : tag->second;
+    return found.route == nullptr ? Made{absl::NotFoundError(""), {}} : make(request, found);
 }
 
 RestAnswer RestDoor::stream(const RestRequest& request, const FoundRoute& found,

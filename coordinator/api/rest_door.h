@@ -70,7 +70,7 @@ private:
     RestAnswer change(const RestRequest& request, const FoundRoute& found) const;
     RestAnswer stream(const RestRequest& request, const FoundRoute& found,
                       google::protobuf::Message& asked) const;
-    std::string tagAt(const RestRequest& change) const;
+    Made there(const RestRequest& change) const;
 
     const Handlers& handlers_;
     /// Held while what is at a path is looked at and changed; paths share them.

@@ -20,6 +20,8 @@
 namespace eyrie::api {
 namespace {
 
+using fabric::ObjectKind;
+
 absl::Status atObject(int index, const absl::Status& status) {
     return fabric::withContext(status, fmt::format("scene.objects[{}]", index));
 }
@@ -46,7 +48,8 @@ SceneDesk::SceneDesk(const std::optional<access::DataFolder>& folder, DataDesk& 
 void SceneDesk::begin(fabric::Scene scene) {
     {
         const std::lock_guard lock(mutex_);
-        for (const fabric::SceneObject& object : scene.objects) allowed_.insert(object.path);
+        for (const fabric::SceneObject& object : scene.objects)
+            allowed_.emplace(object.path, object.kind);
         commandLine_ = scene;
     }
     const bool hasKept = state_ != nullptr && state_->scene().has_scene();
@@ -87,17 +90,23 @@ v1::Scene SceneDesk::named(const fabric::Scene& scene) const {
     return message;
 }
 
-absl::StatusOr<std::string> SceneDesk::pathOf(const std::string& name, const char* ending) const {
+absl::StatusOr<std::string> SceneDesk::pathOf(const std::string& name, ObjectKind kind) const {
+    const bool isTerrain = kind == ObjectKind::Terrain;
     {
         const std::lock_guard lock(mutex_);
-        if (allowed_.contains(name))
+        if (allowed_.contains({name, kind}))
             return name;
+        if (allowed_.contains({name, isTerrain ? ObjectKind::Mesh : ObjectKind::Terrain}))
+            return absl::InvalidArgumentError(fmt::format("'{}' is a {}, and named as a {}", name,
+                                                          isTerrain ? "mesh" : "terrain",
+                                                          isTerrain ? "terrain" : "mesh"));
     }
     if (!folder_)
         return absl::FailedPreconditionError(
             "the server has no data folder, and draws what it was started with; start it with "
             "--data DIR");
     ASSIGN_OR_RETURN(const std::filesystem::path path, folder_->existing(name));
+    const char* const ending = isTerrain ? ".eyt" : ".eym";
     if (path.extension() != ending)
         return absl::InvalidArgumentError(
             fmt::format("'{}' does not end in {}; import it first", name, ending));
@@ -159,7 +168,8 @@ absl::StatusOr<fabric::Scene> SceneDesk::resolved(v1::Scene message,
             object.has_terrain() ? *object.mutable_terrain() : *object.mutable_mesh();
         if (object.name().empty())
             object.set_name(std::filesystem::path(name).filename().string());
-        absl::StatusOr<std::string> path = pathOf(name, object.has_terrain() ? ".eyt" : ".eym");
+        absl::StatusOr<std::string> path =
+            pathOf(name, object.has_terrain() ? ObjectKind::Terrain : ObjectKind::Mesh);
         if (!path.ok())
             return atObject(i, path.status());
         if (*path != name)

@@ -7,6 +7,7 @@
 #include <set>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <absl/status/statusor.h>
@@ -48,7 +49,7 @@ public:
     fabric::Scene shown() const { return frames_.status().scene; }
 
 private:
-    absl::StatusOr<std::string> pathOf(const std::string& name, const char* ending) const;
+    absl::StatusOr<std::string> pathOf(const std::string& name, fabric::ObjectKind kind) const;
     v1::Scene named(const fabric::Scene& scene) const;
     absl::Status showKept(const fabric::Scene& commandLine) const;
     /// An object of a scene, by its position, and its file, by its name in the data folder.
@@ -65,7 +66,7 @@ private:
     const std::function<void(fabric::Scene)> setScene_;
     StateFile* const state_;
     mutable std::mutex mutex_;  ///< guards what follows
-    std::set<std::string> allowed_;
+    std::set<std::pair<std::string, fabric::ObjectKind>> allowed_;
     fabric::Scene commandLine_;  ///< that the server was started with
 };
 

@@ -47,7 +47,7 @@ Response refusalOf(const absl::Status& status) {
 }  // namespace
 
 std::optional<Role> roleFor(std::string_view method, std::string_view path) {
-    if (path == "/ws" || path == "/metrics")
+    if (path == "/ws" || path == "/metrics" || path == "/readyz")
         return Role::View;
     if (path.starts_with(kApi) && path.substr(kApi.size()).starts_with('/'))
         return api::roleForRest(method, path.substr(kApi.size()));

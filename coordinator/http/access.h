@@ -46,7 +46,7 @@ public:
 
     /// The answer to a request that is turned away (401, 403, also on loopback to one under a
     /// stranger's name, 429), or to one that is answered
-    /// here: /login, and, to strangers, /readyz without what only `view` may know.
+    /// here: /login, and, to who shows no token, /readyz without what only `view` may know.
     std::optional<Response> answer(const Asked& asked, const coordinator::FrameSource& frames);
 
     /// The role of a request that answer() let in.

@@ -98,8 +98,10 @@ private:
         writeDeadline_.expires_after(context_.options.writeTimeout);
         writeDeadline_.async_wait([weak = weak_from_this()](error_code error) {
             const auto self = weak.lock();
-            if (!error && self != nullptr)
-                self->end();
+            if (error || self == nullptr)
+                return;
+            self->context_.telemetry->metrics.refused(408);
+            self->end();
         });
         boost::asio::async_write(
             stream_, boost::asio::buffer(writing_),

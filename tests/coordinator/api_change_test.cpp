@@ -153,6 +153,19 @@ TEST_F(Rest, ChangesAreMadeToWhatTheyWereMeantForOrNotAtAll) {
     EXPECT_EQ(ask(remove).status, 200);
 }
 
+TEST_F(Rest, WhatIsThereAndCannotBeReadIsNotTakenForNothing) {
+    std::filesystem::create_directory(folder_.path("data/flights"));
+    std::ofstream(folder_.path("data/flights/a.json")) << "damaged";
+    RestRequest request{"PUT", "/flights/a",
+                        R"({"keys":[{"camera":{"eye":[0,-10,3],"target":[0,0,0]}}]})",
+                        "application/json"};
+    request.ifNoneMatch = "*";
+    expectProblem(ask(request), 500, "DATA_LOSS");
+    EXPECT_EQ(std::filesystem::file_size(folder_.path("data/flights/a.json")), 7U);
+    request.ifNoneMatch = "";
+    EXPECT_EQ(ask(request).status, 200);
+}
+
 TEST_F(Rest, OfManyChangesOfTheSameOnlyOneIsMade) {
     ASSERT_EQ(
         send("PATCH", "/configuration", R"({"layouts":[{"canvas":"0","layout":"1"}]})").status,

@@ -119,6 +119,16 @@ TEST_F(Rest, FlightsThatCannotBeFlownAreNotKept) {
     EXPECT_THAT(*get("/flights").body, HasSubstr("\"names\": []"));
 }
 
+TEST_F(Rest, FlightsAreNotKeptUnderTheNamesOfThoseThatAreBuiltIn) {
+    constexpr const char* kFlight = R"({"keys":[{"camera":{"eye":[0,-10,3],"target":[0,0,0]}}]})";
+    for (const char* name : {"orbit", "walkthrough", "worst"}) {
+        const RestAnswer refused = send("PUT", fmt::format("/flights/{}", name), kFlight);
+        expectProblem(refused, 400, "INVALID_ARGUMENT");
+        EXPECT_EQ(text(refused, "field"), "name");
+    }
+    EXPECT_EQ(send("PUT", "/flights/orbits", kFlight).status, 200);
+}
+
 TEST_F(Rest, WithoutADataFolderNothingIsKept) {
     makeApi(std::nullopt);
     expectProblem(get("/flights"), 409, "FAILED_PRECONDITION");

@@ -68,6 +68,22 @@ TEST_F(ApiQuotas, OfAPicturesPixels) {
     EXPECT_EQ(render(67, 3).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
 }
 
+TEST_F(ApiQuotas, OfThePixelsOfTwoEyesInOnePicture) {
+    makeApi({.imagePixels = 200});
+    const auto image = [&](const char* request) { return ask("POST", "/image", request); };
+    expectRefused(image(R"({"width":101,"height":1,"shown":{"stereo":2}})"), 400, "makes 202x1");
+    expectRefused(image(R"({"width":1,"height":101,"shown":{"stereo":3}})"), 400, "makes 1x202");
+    expectRefused(image(R"({"width":4097,"height":1,"shown":{"stereo":2}})"), 400, "8194");
+    expectRefused(image(R"({"width":2147483647,"height":1,"shown":{"stereo":2}})"), 400, "width");
+    expectRefused(
+        image(R"({"width":300,"height":9,"part":{"width":101,"height":1},"shown":{"stereo":2}})"),
+        400, "part: height makes 202x1");
+    EXPECT_THAT(frames_.requests(), IsEmpty()) << "nothing was drawn";
+    EXPECT_EQ(image(R"({"width":100,"height":1,"shown":{"stereo":2}})").status, 200);
+    EXPECT_EQ(image(R"({"width":200,"height":1,"shown":{"stereo":1}})").status, 200);
+    EXPECT_EQ(image(R"({"width":200,"height":1,"shown":{"stereo":2,"eye":2}})").status, 200);
+}
+
 TEST_F(ApiQuotas, OfPixelsInTheMaking) {
     makeApi({.imagePixels = 200});
     frames_.hold(true);
@@ -116,8 +132,11 @@ TEST_F(ApiQuotas, OfPixelsInText) {
     expectRefused(ask("POST", "/image",
                       R"({"width":8192,"height":8192,"part":{"width":4096,"height":2049}})", json),
                   400, "part makes 4096x2049 pixels");
+    expectRefused(
+        ask("POST", "/image", R"({"width":4096,"height":1025,"shown":{"stereo":3}})", json), 400,
+        "height makes 4096x2050 pixels");
     EXPECT_THAT(frames_.requests(), IsEmpty()) << "nothing was drawn";
-    EXPECT_EQ(refusals("image"), 3);
+    EXPECT_EQ(refusals("image"), 4);
     EXPECT_EQ(ask("POST", "/image", R"({"width":4096,"height":2048})", json).status, 200);
     EXPECT_EQ(ask("POST", "/image", large + "}").status, 200);
 }

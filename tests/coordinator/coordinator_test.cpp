@@ -242,6 +242,18 @@ TEST(Coordinator, AnInvalidSceneIsRefused) {
     EXPECT_EQ(Coordinator::start(options).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
+TEST(Coordinator, ASceneThatMessagesCannotNameIsRefused) {
+    const test::TemporaryFolder folder;
+    CoordinatorOptions options = optionsFor(folder, "2D");
+    const auto coordinator = Coordinator::start(options).value();
+    options.scene.objects.front().path = "/data/\xfc.eyt";
+    options.grpcAddresses = {"unix:" + folder.path("other")};
+    const absl::Status status = Coordinator::start(options).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_EQ(status.message(), "/data/\\xfc.eyt is not UTF-8; rename the file");
+    EXPECT_EQ(coordinator->setScene(options.scene), status);
+}
+
 TEST(Coordinator, NeedsAnAddress) {
     CoordinatorOptions options;
     options.grpcAddresses.clear();

@@ -23,6 +23,7 @@ TEST(HttpRoles, LookingIsForViewersAndWhatIsNotKnownForAdministrators) {
     EXPECT_EQ(roleFor("GET", "/assets/main.js"), std::nullopt);
     EXPECT_EQ(roleFor("GET", "/healthz"), std::nullopt);
     EXPECT_EQ(roleFor("GET", "/ws"), Role::View);
+    EXPECT_EQ(roleFor("GET", "/readyz"), Role::View);
     EXPECT_EQ(roleFor("GET", "/metrics"), Role::View);
     EXPECT_EQ(roleFor("GET", "/api/v1/scene"), Role::View);
     EXPECT_EQ(roleFor("POST", "/api/v1/image"), Role::View);
@@ -68,6 +69,20 @@ TEST_F(HttpAccess, StrangersSeeThePageAndThatTheServerLives) {
         EXPECT_THAT(answer, HasSubstr(R"("status":401)")) << target;
     }
     EXPECT_EQ(upgradeStatus(""), 401);
+}
+
+TEST_F(HttpAccess, ReadinessIsToldInFullToRightTokensOnlyAndWrongOnesAreLimited) {
+    start();
+    const std::string wrong = request("GET", "/readyz", bearer("wrong-0123456789abcdefgh"));
+    EXPECT_EQ(statusOf(request("GET", "/readyz", "Authorization: x\r\n")), 401);
+    for (int i = 1; i < access::Gate::kMaxWrong; ++i) {
+        const std::string answer = ask(wrong);
+        EXPECT_THAT(answer, HasSubstr("HTTP/1.1 401"));
+        EXPECT_THAT(answer, Not(HasSubstr("renderers")));
+    }
+    EXPECT_EQ(statusOf(wrong), 429);
+    EXPECT_EQ(statusOf(request("GET", "/readyz")), 200) << "probes show no token";
+    EXPECT_EQ(statusOf(request("GET", "/readyz", bearer(kViewToken))), 200);
 }
 
 TEST_F(HttpAccess, TokensDoWhatTheirRoleMay) {

@@ -257,6 +257,8 @@ TEST_F(HttpApi, WhoTakesNoStatisticsIsCutOff) {
         boost::asio::write(client, boost::asio::buffer("x", 1), error);
         return bool(error);
     }));
+    EXPECT_THAT(ask("GET /metrics"),
+                HasSubstr("eyrie_requests_refused_total{reason=\"too_slow\"} 1\n"));
 }
 
 TEST_F(HttpApi, PagesOfOtherSitesGetNothing) {

@@ -182,6 +182,19 @@ TEST_F(KeptState, EndsWhereTheCommandLinesSceneIsSetAgain) {
     expectScene("started with instead");
 }
 
+TEST_F(KeptState, HasNoSceneOfTheCommandLinesFilesAsTheOtherKind) {
+    const char* const asTerrain = R"({"objects":[{"terrain":"/elsewhere/first.eym"}]})";
+    EXPECT_EQ(send("PUT", "/scene", asTerrain), 400);
+    EXPECT_THAT(*coordinator_->api()
+                     .rest()
+                     .answer({"PUT", "/api/v1/scene", asTerrain, "application/json", ""})
+                     .body,
+                HasSubstr("scene.objects[0]: '/elsewhere/first.eym' is a mesh"));
+    expectScene("started with");
+    start();
+    expectScene("started with");
+}
+
 TEST_F(KeptState, IsLeftOutWhereItsFilesAreGone) {
     setScene();
     std::filesystem::remove(data() / "a.eym");

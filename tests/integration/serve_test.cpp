@@ -197,6 +197,14 @@ TEST_F(Serve, AnswersAndEndsWithoutATraceOnATermination) {
     EXPECT_EQ(test::namesIn(folder_.path("tmp")), std::set<std::string>{});
 }
 
+TEST_F(Serve, ShowsASourceWhoseNameIsNotUtf8) {
+    const std::string source = folder_.path("W\xfcrfel.ply");
+    ASSERT_TRUE(test::succeeded({"synth", "mesh", "--size", "200", "-o", source}));
+    data_ = {source};
+    ASSERT_NO_FATAL_FAILURE(startAndWait());
+    EXPECT_TRUE(test::eventually(seconds(30), [&] { return httpStatus("/readyz") == 200; }));
+}
+
 TEST_F(Serve, ShowsWhatProgramsSetWhereNoDataIsNamed) {
     const std::string data = folder_.path("data");
     std::filesystem::create_directory(data);
