@@ -132,6 +132,7 @@ await run("together", async (browser, started) => {
   await second.waitForTimeout(300);
   check((await camera(second)) === turned, "who watches moves nothing");
 
+  frames = [await frame(first), await frame(second)];
   await first.focus("#view");
   await first.keyboard.press("t");
   await first.waitForFunction(
@@ -139,6 +140,8 @@ await run("together", async (browser, started) => {
     turned,
     patience,
   );
+  await exact(first, frames[0]);
+  await exact(second, frames[1]);
   frames = [await frame(first), await frame(second)];
   await second.click("#take-lead");
   await says(second, "2 viewers · you lead");
