@@ -79,7 +79,9 @@ void Session::Impl::want(Seat& seat, ViewRequest view) {
     setProblem(seat.problem, "");
     setProblem(seat.refusal, "");
     view.viewer = seat.id;
-    wantNow(view);
+    // What it has of the same view answers what it asked for before, and may not be awaited there.
+    if (!wantNow(view))
+        seat.delivered = {};
 }
 
 absl::Status Session::Impl::change(const ViewChange& change) {
@@ -267,16 +269,19 @@ SessionCounts Session::Impl::counts() const {
     return counts_;
 }
 
-void Session::Impl::wantNow(const ViewRequest& view) {
+/// Whether it is another view than the one that was wanted.
+bool Session::Impl::wantNow(const ViewRequest& view) {
     // Who leads shows what is asked for: the next picture has it.
     if (leader_ != nullptr && leader_->screen &&
         leader_->screen->shown != view.frame.shown.front()) {
         leader_->screen->shown = view.frame.shown.front();
         leader_->screen->isToBeChecked = true;
     }
-    if (progress_.want(view, Clock::now()))
+    const bool isOther = progress_.want(view, Clock::now());
+    if (isOther)
         for (const auto& each : seats_) each->outbox.dropStill();
     changed_.notify_all();
+    return isOther;
 }
 
 void Session::Impl::setProblem(std::string& problem, std::string value) {
