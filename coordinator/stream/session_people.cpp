@@ -79,9 +79,7 @@ void Session::Impl::want(Seat& seat, ViewRequest view) {
     setProblem(seat.problem, "");
     setProblem(seat.refusal, "");
     view.viewer = seat.id;
-    // What it has of the same view answers what it asked for before, and may not be awaited there.
-    if (!wantNow(view))
-        seat.delivered = {};
+    wantNow(view);
 }
 
 absl::Status Session::Impl::change(const ViewChange& change) {
@@ -269,19 +267,16 @@ SessionCounts Session::Impl::counts() const {
     return counts_;
 }
 
-/// Whether it is another view than the one that was wanted.
-bool Session::Impl::wantNow(const ViewRequest& view) {
+void Session::Impl::wantNow(const ViewRequest& view) {
     // Who leads shows what is asked for: the next picture has it.
     if (leader_ != nullptr && leader_->screen &&
         leader_->screen->shown != view.frame.shown.front()) {
         leader_->screen->shown = view.frame.shown.front();
         leader_->screen->isToBeChecked = true;
     }
-    const bool isOther = progress_.want(view, Clock::now());
-    if (isOther)
+    if (progress_.want(view, Clock::now()))
         for (const auto& each : seats_) each->outbox.dropStill();
     changed_.notify_all();
-    return isOther;
 }
 
 void Session::Impl::setProblem(std::string& problem, std::string value) {

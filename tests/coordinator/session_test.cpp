@@ -287,24 +287,6 @@ TEST(Session, GivesAViewAtRestToWhoComesLaterWithoutDrawingIt) {
     EXPECT_EQ(frames.requests().size(), 1u);
 }
 
-/// As a page does that has followed another's view to the one it had asked for before.
-TEST(Session, AnswersTheSameViewAskedForAgainWithoutDrawingIt) {
-    FakeFrameSource frames;
-    Sessions sessions(frames, resting());
-    Browser browser(sessions, kLead);
-    for (const std::uint64_t sequence : {1U, 2U}) {
-        browser.send(viewMessage(sequence, 5));
-        for (bool isExact = false; !isExact;) {
-            const auto frame = browser.nextFrame();
-            ASSERT_TRUE(frame.has_value()) << sequence;
-            EXPECT_EQ(frame->view_sequence(), sequence);
-            browser.acknowledge(frame->frame_number());
-            isExact = frame->has_png();
-        }
-    }
-    EXPECT_EQ(frames.requests().size(), 1U);
-}
-
 TEST(Session, BeginsAnewUnderTheNameOfOneThatEnded) {
     FakeFrameSource frames;
     Sessions sessions(frames, moving(2));
