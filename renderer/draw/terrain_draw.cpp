@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "fabric/status.h"
 #include "renderer/draw/box_lines.h"
@@ -42,6 +44,18 @@ constexpr double kElevationBands = 5;               ///< of effects/terrain.effe
 
 /// Where memory is short, texels grow as tau does.
 double texelPixels(int step) { return terrain::kTexelPixels * page::TauLadder::factor(step); }
+
+/// All of the equal ranges that `range` is one of, to a millionth; else it alone.
+std::vector<fabric::Range> equalRanges(const fabric::Range& range) {
+    constexpr double kRounding = 1e-6;
+    constexpr double kMost = 1024;
+    const double count = std::round(1 / (range.end - range.begin));
+    const double index = std::round(range.begin * count);
+    if (!(count <= kMost) || std::abs(range.begin * count - index) > kRounding ||
+        std::abs(range.end * count - index - 1) > kRounding)
+        return {range};
+    return fabric::split(fabric::Range{}, fabric::equalCuts(static_cast<int>(count)));
+}
 
 /// Calls `draw` with those stretches of `tile`'s part `part` that may be seen, in their order.
 template <typename Draw>
@@ -116,6 +130,7 @@ private:
                                     double texelPixels);
     std::vector<NeededItem> neededItems(const lod::ObjectView& view, double texelPixels) const;
     const Wanted& need(const CutRequest& request, int step);
+    std::uint64_t bytesOf(const CutRequest& request, int step);
     int stepOf(const CutRequest& request, int first);
     /// By variant; null: not used in the frame so far.
     using PicturePrograms =
@@ -200,25 +215,39 @@ const TerrainDrawable::Wanted& TerrainDrawable::need(const CutRequest& request, 
     return wanted;
 }
 
+/// What the channel brings to the device at a step. A complete frame needs nothing that stands in;
+/// others come to what they need by way of it.
+std::uint64_t TerrainDrawable::bytesOf(const CutRequest& request, int step) {
+    const Wanted& wanted = need(request, step);
+    if (request.completeness == fabric::Completeness::Complete)
+        return paging_->bytesOf(
+            wanted.refinement, needed_,
+            imagery_.texturesOf(needed_.leaves(), request.view, texelPixels(step)));
+    std::uint64_t sum = 0;
+    for (const NeededItem& item : neededItems(request.view, texelPixels(step))) sum += item.bytes;
+    return sum;
+}
+
 /// The lowest step from the view's `first` on at which what the channel needs fits by itself. That
 /// may be more than its share of what the view needs: shares are of triangles, but pictures are as
-/// large as their ground, and several channels may need the same. A complete frame needs nothing
-/// that stands in; others come to what they need by way of it.
+/// large as their ground, and several channels may need the same. Of equal ranges it is what the
+/// neediest needs, so that all of them come to the same step, and tiles meet.
 int TerrainDrawable::stepOf(const CutRequest& request, int first) {
-    if (request.range.isWhole())
-        return first;
-    const auto bytes = [&](int step) {
-        const Wanted& wanted = need(request, step);
-        if (request.completeness == fabric::Completeness::Complete)
-            return paging_->bytesOf(
-                wanted.refinement, needed_,
-                imagery_.texturesOf(needed_.leaves(), request.view, texelPixels(step)));
-        std::uint64_t sum = 0;
-        for (const NeededItem& item : neededItems(request.view, texelPixels(step)))
-            sum += item.bytes;
-        return sum;
-    };
     const std::uint64_t room = paging_->roomBytes();
+    // Of the whole view, as ever: channels that see parts of it come to the same step, too.
+    CutRequest part{
+        request.view, request.view.view().frustum, {}, request.tauPixels, request.completeness};
+    if (request.range.isWhole() || bytesOf(part, first) <= room)
+        return first;
+    const std::vector<fabric::Range> ranges = equalRanges(request.range);
+    const auto bytes = [&](int step) {
+        std::uint64_t most = 0;
+        for (const fabric::Range& range : ranges) {
+            part.range = range;
+            most = std::max(most, bytesOf(part, step));
+        }
+        return most;
+    };
     return bytes(first) <= room ? first : page::TauLadder::lowest(bytes, room, first + 1);
 }
 
