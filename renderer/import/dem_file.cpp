@@ -290,7 +290,7 @@ private:
         if (isPossible(nearest, rule_))
             return static_cast<float>(value * rule_.scale + rule_.offset);
         if (!*impossible_)
-            *impossible_ = {column, row, nearest};
+            *impossible_ = {column, row, value};
         return terrain::kNodata;
     }
 
