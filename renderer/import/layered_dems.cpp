@@ -65,7 +65,7 @@ public:
             for (const DemFile& file : layer.files)
                 if (const auto& found = *file.impossible)
                     findings.push_back(fmt::format(
-                        "{:g} in column {} and row {} of {} can be no height; it is taken for "
+                        "{:.9g} in column {} and row {} of {} can be no height; it is taken for "
                         "nodata, and so is what else is like it",
                         found->value, found->column, found->row, file.path));
         return findings;
