@@ -17,52 +17,28 @@
 #include "renderer/import/pack_mesh.h"
 #include "renderer/mesh/vertex_packing.h"
 #include "renderer/truth/mesh_ray_caster.h"
+#include "tests/renderer/mesh/lod/level_surface.h"
+#include "tests/renderer/mesh/lod/sample_levels.h"
 #include "tests/renderer/mesh/sample_meshes.h"
 
 namespace eyrie::mesh {
 namespace {
 
-constexpr std::uint32_t kNodeTriangles = 512;
-
-struct Levels {
-    PackedMesh mesh;
-    KdTree tree;
-    LodTree lod;
-};
-
-Levels levelsOf(PackedMesh mesh, std::uint32_t nodeTriangles = kNodeTriangles,
-                std::size_t sampledTriangles = LodOptions().sampledTriangles) {
-    auto tree = buildKdTree(mesh.positions, mesh.triangles, {nodeTriangles / 4});
-    EXPECT_TRUE(tree.ok());
-    auto lod = buildLodTree(mesh, *tree,
-                            {.nodeTriangles = nodeTriangles, .sampledTriangles = sampledTriangles});
-    EXPECT_TRUE(lod.ok());
-    return {std::move(mesh), *std::move(tree), *std::move(lod)};
-}
+using test::kNodeTriangles;
+using test::Levels;
+using test::levelsOf;
+using test::sourceOf;
+using test::surfaceOf;
 
 const Levels& bumpyBall() {
     static const Levels levels = [] {
         import::PackCounts counts;
         auto mesh = import::packMesh(import::synthesizeMesh(20000, 5), counts);
         EXPECT_TRUE(mesh.ok());
-        return levelsOf(*std::move(mesh), kNodeTriangles, kNodeTriangles);
+        return levelsOf(*std::move(mesh),
+                        {.nodeTriangles = kNodeTriangles, .sampledTriangles = kNodeTriangles});
     }();
     return levels;
-}
-
-std::vector<Triangle> sourceOf(const Levels& levels, const KdNode& node) {
-    std::vector<Triangle> triangles;
-    for (std::uint64_t i = node.triangleBegin; i < node.triangleEnd; ++i)
-        triangles.push_back(levels.mesh.triangles[levels.tree.order[i]]);
-    return triangles;
-}
-
-truth::MeshRayCaster surface(const PackedMesh& mesh, const std::vector<Triangle>& triangles) {
-    truth::TriangleMesh plain;
-    for (const std::uint64_t position : mesh.positions)
-        plain.positions.push_back(mesh.lattice.metres(unpackPosition(position)));
-    plain.triangles.assign(triangles.begin(), triangles.end());
-    return truth::MeshRayCaster(std::move(plain));
 }
 
 /// Largest distance found from points all over the triangles to the surface.
@@ -109,8 +85,8 @@ Ratios promisedOverMeasured(const Levels& levels) {
         const std::vector<Triangle> source = sourceOf(levels, levels.tree.nodes[i]);
         const auto& drawn = levels.lod.geometry[i];
         const double measured =
-            std::max(farthest(levels.mesh, source, surface(levels.mesh, drawn)),
-                     farthest(levels.mesh, drawn, surface(levels.mesh, source)));
+            std::max(farthest(levels.mesh, source, surfaceOf(levels.mesh, drawn)),
+                     farthest(levels.mesh, drawn, surfaceOf(levels.mesh, source)));
         EXPECT_LE(measured, levels.lod.errorMetres[i]) << "node " << i;
         const double ratio = levels.lod.errorMetres[i] / measured;
         ratios.least = std::min(ratios.least, ratio);
@@ -178,10 +154,10 @@ TEST(LodTree, OfASoupLosesPiecesAndStillKeepsItsPromise) {
             continue;
         const std::vector<Triangle> source = sourceOf(levels, levels.tree.nodes[i]);
         const auto& drawn = levels.lod.geometry[i];
-        EXPECT_LE(farthest(levels.mesh, source, surface(levels.mesh, drawn)),
+        EXPECT_LE(farthest(levels.mesh, source, surfaceOf(levels.mesh, drawn)),
                   levels.lod.errorMetres[i])
             << "node " << i;
-        EXPECT_LE(farthest(levels.mesh, drawn, surface(levels.mesh, source)),
+        EXPECT_LE(farthest(levels.mesh, drawn, surfaceOf(levels.mesh, source)),
                   levels.lod.errorMetres[i])
             << "node " << i;
         ++nodes;
@@ -212,84 +188,6 @@ PackedMesh ladders() {
     return mesh;
 }
 
-/// Hills, and a fence with a foot and a top so far from each post of one row of theirs.
-PackedMesh hillsAndFence(const glm::ivec3& foot, const glm::ivec3& top) {
-    constexpr std::uint32_t kPosts = 100;
-    PackedMesh mesh;
-    mesh.lattice = {{0, 0, 0}, 0.25};
-    std::mt19937 random(5);
-    const auto add = [&](const glm::uvec3& at) {
-        mesh.positions.push_back(packPosition(at));
-        mesh.normals.push_back(packNormal({0, 0, 1}));
-    };
-    const auto rectangle = [&](std::uint32_t a, std::uint32_t across) {
-        mesh.triangles.push_back({a, a + 1, a + across + 1});
-        mesh.triangles.push_back({a, a + across + 1, a + across});
-    };
-    for (std::uint32_t y = 0; y < kPosts; ++y)
-        for (std::uint32_t x = 0; x < kPosts; ++x) {
-            add({x * 1000, y * 1000, 5000 + random() % 800});
-            if (x + 1 < kPosts && y + 1 < kPosts)
-                rectangle(y * kPosts + x, kPosts);
-        }
-    for (const glm::ivec3& away : {foot, top})
-        for (std::uint32_t x = 0; x < kPosts; ++x)
-            add(glm::uvec3(glm::ivec3(unpackPosition(mesh.positions[30 * kPosts + x])) + away));
-    for (std::uint32_t x = 0; x + 1 < kPosts; ++x) rectangle(kPosts * kPosts + x, kPosts);
-    return mesh;
-}
-
-/// However much else of the hills goes, no slit opens under the fence.
-TEST(LodTree, KeepsSheetsTogetherThatTouchWithoutSharingPoints) {
-    const Levels levels = levelsOf(hillsAndFence({0, 0, 1}, {0, 0, 2001}));
-    std::size_t simpler = 0;
-    for (std::size_t i = 0; i < levels.tree.nodes.size(); ++i) {
-        std::vector<Triangle> hills;
-        for (const Triangle& triangle : levels.lod.geometry[i])
-            if (triangle[0] < 10'000)
-                hills.push_back(triangle);
-        if (hills.empty())
-            continue;
-        ++simpler;
-        const truth::MeshRayCaster surface = mesh::surface(levels.mesh, hills);
-        for (const Triangle& triangle : sourceOf(levels, levels.tree.nodes[i]))
-            for (const std::uint32_t vertex : triangle)
-                if (vertex >= 10'000 && vertex < 10'100) {
-                    const fabric::Vec3 foot =
-                        levels.mesh.lattice.metres(unpackPosition(levels.mesh.positions[vertex]));
-                    // The hill right under it may be another node's.
-                    const double away = glm::distance(*surface.counterpart(foot), foot);
-                    EXPECT_TRUE(away <= levels.mesh.lattice.stepMetres || away >= 100)
-                        << "node " << i << ", " << away;
-                }
-    }
-    EXPECT_GT(simpler, 20U);
-    EXPECT_LE(levels.lod.geometry[0].size(), kNodeTriangles * 3);
-}
-
-/// Of posts that a fence starts from none goes, though the fence, which leans over, is in nodes of
-/// its own, and the hills alone go on all around them there.
-TEST(LodTree, KeepsWhereASheetOfAnotherNodeStarts) {
-    const Levels levels = levelsOf(hillsAndFence({0, 0, 0}, {0, -29'000, 2000}));
-    std::size_t looks = 0;
-    for (std::size_t i = 0; i < levels.tree.nodes.size(); ++i) {
-        std::set<std::uint64_t> there;
-        for (const Triangle& triangle : levels.lod.geometry[i])
-            for (const std::uint32_t vertex : triangle)
-                if (vertex < 10'000)
-                    there.insert(levels.mesh.positions[vertex]);
-        if (there.empty())
-            continue;
-        for (const Triangle& triangle : sourceOf(levels, levels.tree.nodes[i]))
-            for (const std::uint32_t vertex : triangle)
-                if (vertex >= 3000 && vertex < 3100) {
-                    ++looks;
-                    EXPECT_TRUE(there.contains(levels.mesh.positions[vertex])) << "node " << i;
-                }
-    }
-    EXPECT_GT(looks, 1000U);
-}
-
 TEST(LodTree, SimplifiesLeavesHoweverLarge) {
     const PackedMesh& mesh = bumpyBall().mesh;
     const auto leaf = static_cast<std::uint32_t>(mesh.triangles.size() / 2 + 1);
@@ -311,7 +209,7 @@ TEST(LodTree, WhatDoesNotSimplifyIsPoints) {
         mesh, *tree,
         {.nodeTriangles = kNodeTriangles, .sampledTriangles = kNodeTriangles, .nodePoints = 300});
     ASSERT_TRUE(lod.ok());
-    const truth::MeshRayCaster source = surface(mesh, mesh.triangles);
+    const truth::MeshRayCaster source = surfaceOf(mesh, mesh.triangles);
     std::size_t sampled = 0;
     for (std::size_t i = 0; i < tree->nodes.size(); ++i) {
         const KdNode& node = tree->nodes[i];
@@ -529,7 +427,7 @@ TEST(LodTree, LeavesSurfacesThatAreAllBorderToTheirLeaves) {
     for (std::uint32_t i = 0; i < 2000; ++i)
         flag.triangles.push_back(i % 2 == 0 ? Triangle{i, i + 2, i + 1}
                                             : Triangle{i, i + 1, i + 2});
-    const Levels levels = levelsOf(std::move(flag), 64);
+    const Levels levels = levelsOf(std::move(flag), {.nodeTriangles = 64});
     for (const auto& geometry : levels.lod.geometry) EXPECT_TRUE(geometry.empty());
     for (const double error : levels.lod.errorMetres)
         EXPECT_EQ(error, levels.mesh.lattice.errorMetres());
@@ -537,7 +435,8 @@ TEST(LodTree, LeavesSurfacesThatAreAllBorderToTheirLeaves) {
 
 TEST(LodTree, SurvivesRandomTriangles) {
     for (std::uint32_t seed = 0; seed < 20; ++seed) {
-        const Levels levels = levelsOf(test::randomSoup(3000, 300, 40, seed), 128);
+        const Levels levels =
+            levelsOf(test::randomSoup(3000, 300, 40, seed), {.nodeTriangles = 128});
         for (const auto& geometry : levels.lod.geometry)
             for (const Triangle& triangle : geometry)
                 for (const std::uint32_t vertex : triangle)

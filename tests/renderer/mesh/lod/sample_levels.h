@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -22,17 +24,30 @@ struct Levels {
     mesh::LodTree lod;
 };
 
+inline Levels levelsOf(mesh::PackedMesh mesh,
+                       const mesh::LodOptions& options = {.nodeTriangles = kNodeTriangles}) {
+    auto tree = mesh::buildKdTree(mesh.positions, mesh.triangles, {options.nodeTriangles / 4});
+    EXPECT_TRUE(tree.ok());
+    auto lod = mesh::buildLodTree(mesh, *tree, options);
+    EXPECT_TRUE(lod.ok());
+    return {std::move(mesh), *std::move(tree), *std::move(lod)};
+}
+
 inline Levels levelsOf(import::TriangleMesh source,
                        const mesh::LodOptions& options = {.nodeTriangles = kNodeTriangles},
                        const import::PackOptions& pack = {}) {
     import::PackCounts counts;
     auto mesh = import::packMesh(std::move(source), counts, pack);
     EXPECT_TRUE(mesh.ok()) << mesh.status();
-    auto tree = mesh::buildKdTree(mesh->positions, mesh->triangles, {options.nodeTriangles / 4});
-    EXPECT_TRUE(tree.ok());
-    auto lod = mesh::buildLodTree(*mesh, *tree, options);
-    EXPECT_TRUE(lod.ok());
-    return {*std::move(mesh), *std::move(tree), *std::move(lod)};
+    return levelsOf(*std::move(mesh), options);
+}
+
+/// The triangles of the mesh that are under a node.
+inline std::vector<mesh::Triangle> sourceOf(const Levels& levels, const mesh::KdNode& node) {
+    std::vector<mesh::Triangle> triangles;
+    for (std::uint64_t i = node.triangleBegin; i < node.triangleEnd; ++i)
+        triangles.push_back(levels.mesh.triangles[levels.tree.order[i]]);
+    return triangles;
 }
 
 /// So many cells a side, each two triangles and a metre wide, `height(x, y)` high at its posts.
