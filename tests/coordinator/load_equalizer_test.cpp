@@ -86,11 +86,12 @@ TEST(LoadEqualizer, ComesToRestWhereLoadRests) {
     }
 }
 
-/// The first frame's times are of loading, and tell nothing.
+/// The first frame's times are of loading, and tell nothing. The last mode has 41 columns and as
+/// few frames in which a cut still moves, which are the ones that tell the explanations apart.
 TEST(LoadEqualizer, KnowsARendererThatIsTenTimesSlowerWithin20FramesHoweverTheyBegin) {
     std::mt19937 random(7);
     std::exponential_distribution<double> loading(.2);
-    for (const char* mode : {"mode DB", "mode 2D"})
+    for (const char* mode : {"mode DB", "mode 2D", "mode 2D boundary [ 31 31 ]"})
         for (int run = 0; run < 200; ++run) {
             Balanced balanced = loadBalanced(3, mode);
             balanced.draw([&](const auto&) { return loading(random); });
@@ -104,7 +105,7 @@ TEST(LoadEqualizer, KnowsARendererThatIsTenTimesSlowerWithin20FramesHoweverTheyB
                     continue;
                 // Equal times are 100 / (1 + 1/10 + 1).
                 ASSERT_NEAR(milliseconds[1], 100 / 2.1, 4) << mode << ", " << run << ", " << frame;
-                ASSERT_NEAR(milliseconds[2], 100 / 2.1, 20) << mode << ", " << run << ", " << frame;
+                ASSERT_NEAR(milliseconds[2], 100 / 2.1, 26) << mode << ", " << run << ", " << frame;
             }
         }
 }

@@ -126,11 +126,11 @@ void Load::record(const PlannedFrame& frame, const FrameTimes& times) {
                                               work_.covered(children_[i], frame, times)));
         measured.push_back(part);
     }
-    model_.record(measured);
     costs_ = *costs;
     assembly_ = position_ < times.compounds.size()
                     ? known(times.compounds[position_].assemble).value_or(0)
                     : 0;
+    model_.record(measured, imbalance() <= kAlike);
 }
 
 double Load::imbalance() const {

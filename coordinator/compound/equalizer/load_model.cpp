@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace eyrie::equalizer {
 namespace {
@@ -11,9 +12,11 @@ namespace {
 /// where children explain times.
 constexpr double kOfChildren = .7;
 constexpr double kMostSurprising = 10;
-/// Children are believed once places foretold more than noise wrong, and this much more than they.
+/// Children are believed once places foretold more than noise wrong, and this much more than they;
+/// where by places parts are to stay that are not balanced, less will do.
 constexpr double kNoise = .15;
 constexpr double kClearly = .3;
+constexpr double kRather = .6;
 /// Of an average of frames, the last one's part.
 constexpr double kOfLast = .5;
 
@@ -22,15 +25,22 @@ constexpr double kOfLast = .5;
 LoadModel::LoadModel(int columns, int rows, std::size_t children)
     : places_{LoadMap(columns, rows), std::vector<double>(children, 1.0)}, children_(places_) {}
 
-void LoadModel::record(std::span<const Measured> parts) {
-    learn(parts, 0, places_);
-    learn(parts, kOfChildren, children_);
-    believesChildren_ = believesChildren_
-                            ? children_.wrong <= places_.wrong
-                            : places_.wrong > kNoise && children_.wrong < kClearly * places_.wrong;
+void LoadModel::record(std::span<const Measured> parts, bool areBalanced) {
+    std::vector<Area> areas;
+    for (const Measured& part : parts) areas.push_back(part.part);
+    const bool areNew = areas != parts_;
+    parts_ = std::move(areas);
+    learn(parts, 0, areNew, places_);
+    learn(parts, kOfChildren, areNew, children_);
+    if (believesChildren_)
+        believesChildren_ = children_.wrong <= places_.wrong;
+    else if (areNew || areBalanced)
+        believesChildren_ = places_.wrong > kNoise && children_.wrong < kClearly * places_.wrong;
+    else
+        believesChildren_ = children_.wrong < kRather * places_.wrong;
 }
 
-void LoadModel::learn(std::span<const Measured> parts, double ofChildren,
+void LoadModel::learn(std::span<const Measured> parts, double ofChildren, bool areNew,
                       Explanation& explanation) {
     auto& [map, slowness, wrong] = explanation;
     std::vector<double> foretold;
@@ -53,7 +63,8 @@ void LoadModel::learn(std::span<const Measured> parts, double ofChildren,
             std::pow(std::clamp(surprise, 1 / kMostSurprising, kMostSurprising), ofChildren);
         logarithms += std::log(slowness[parts[i].child]);
     }
-    wrong += kOfLast * (off - wrong);
+    if (areNew)
+        wrong += kOfLast * (off - wrong);
     // Slower all together is more load, not slower children.
     const double mean = std::exp(logarithms / static_cast<double>(parts.size()));
     std::vector<LoadMap::Measured> loads;

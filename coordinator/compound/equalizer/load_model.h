@@ -17,7 +17,8 @@ namespace eyrie::equalizer {
 /// rest to the place. Among equal renderers the first foretells the next frame better, noise
 /// included, and is believed; where a renderer is far slower than others, cuts made by it move load
 /// away and find less of it there, again and again, and the second is believed for as long as it
-/// foretells better (docs/decisions/0040).
+/// foretells better (docs/decisions/0040). Which does is told by frames whose parts are new: either
+/// foretells well what the same parts take again.
 class LoadModel {
 public:
     /// Even load in cells (LoadMap), children that are equally quick.
@@ -29,8 +30,9 @@ public:
         Area region;              ///< of the part that was covered
         double milliseconds = 0;  ///< finite, above 0
     };
-    /// `parts` cover the whole once, but for what cost nothing.
-    void record(std::span<const Measured> parts);
+    /// `parts` cover the whole once, but for what cost nothing. Where they stay as they were though
+    /// they are not balanced, the best that places know of is not good enough.
+    void record(std::span<const Measured> parts, bool areBalanced);
 
     const LoadMap& map() const { return believed().map; }
 
@@ -41,14 +43,16 @@ private:
     struct Explanation {
         LoadMap map;
         std::vector<double> slowness;  ///< by child
-        double wrong = 0;              ///< of late, what share of the times was foretold elsewhere
+        double wrong = 0;  ///< of new parts' times of late, what share was foretold elsewhere
     };
-    static void learn(std::span<const Measured> parts, double ofChildren, Explanation& explanation);
+    static void learn(std::span<const Measured> parts, double ofChildren, bool areNew,
+                      Explanation& explanation);
     const Explanation& believed() const { return believesChildren_ ? children_ : places_; }
 
     Explanation places_;
     Explanation children_;
     bool believesChildren_ = false;
+    std::vector<Area> parts_;  ///< of the last frame
 };
 
 }  // namespace eyrie::equalizer
