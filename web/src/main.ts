@@ -59,7 +59,7 @@ function start(): void {
   showMeasure(state, viewer);
   showViews(state, viewer);
   showFlight(state, viewer);
-  showRenderers(state, viewer);
+  showRenderers(state);
   showEqualizers(state);
   showPlots(state);
   showNotice(state);

@@ -163,4 +163,9 @@ export class State {
   readonly look = new Value<Look>(defaultLook);
   /** Which picture of the configuration is seen here. */
   readonly output = new Value<Output>(usualOutput);
+
+  /** Another moves the view, or nobody: this page only sees it. */
+  get isWatching(): boolean {
+    return this.session.value?.place?.leads === false;
+  }
 }

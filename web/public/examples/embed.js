@@ -10,4 +10,4 @@ state.numbers.watch((numbers) => {
   const error = `off by ${numbers.tauAchieved.toFixed(2)} pixels at most`;
   document.querySelector("output").value = numbers.exact ? `Exact picture, ${error}` : error;
 });
-document.querySelector("button").addEventListener("click", () => viewer.goHome());
+document.querySelector("button").addEventListener("click", () => viewer.steering.goHome());

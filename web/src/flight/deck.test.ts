@@ -33,7 +33,7 @@ class StageOfTest implements Stage {
 
 describe("A flight deck", () => {
   const [told, stage] = [vi.fn(), new StageOfTest()];
-  const deck = new FlightDeck(stage, told);
+  const deck = new FlightDeck(stage, stage, told);
   const frameMs = 20;
   const frame = () => vi.advanceTimersByTime(frameMs);
 

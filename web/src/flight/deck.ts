@@ -9,16 +9,20 @@ import type { Flight, FlightKey } from "./flight";
 import { cameraAt, secondsOf } from "./flight";
 import { ZipWriter } from "./zip";
 
-/** What of the viewer a flight needs. */
+/** Where a flight is flown. */
 export interface Stage {
   readonly camera: Camera | null;
   /** Counts up with each movement, whoever makes it. */
   readonly movements: number;
-  readonly pictureSize: Size;
   /** Another moves the view: moveAlong() does nothing. */
   readonly isWatching: boolean;
   /** Shows a camera of the flight. */
   moveAlong(camera: Camera): void;
+}
+
+/** What is seen of it. */
+export interface Pictures {
+  readonly pictureSize: Size;
   /** The picture of the newest view, once it is exact. */
   exactNow(): Blob | undefined;
 }
@@ -64,6 +68,7 @@ export class FlightDeck {
 
   constructor(
     private readonly stage: Stage,
+    private readonly pictures: Pictures,
     /** Tells the user what came of something. */
     private readonly tell: (text: string) => void,
   ) {}
@@ -186,7 +191,7 @@ export class FlightDeck {
     const flight = this.flight.value;
     const frames = Math.floor(this.length * framesPerSecond + 1e-6) + 1;
     const digits = Math.max(5, String(frames).length);
-    const size = JSON.stringify(this.stage.pictureSize);
+    const size = JSON.stringify(this.pictures.pictureSize);
     const zip = new ZipWriter();
     const mine = (frame: number): Activity => ({ kind: "drawing", frame, frames });
     let activity = mine(0);
@@ -196,7 +201,7 @@ export class FlightDeck {
         this.show(i / framesPerSecond);
         const picture = await this.exact(() => this.activity.value === activity);
         if (picture === undefined) return undefined;
-        if (JSON.stringify(this.stage.pictureSize) !== size)
+        if (JSON.stringify(this.pictures.pictureSize) !== size)
           throw new Error("The window has changed its size meanwhile: pictures would differ");
         await zip.add({ name: `${String(i + 1).padStart(digits, "0")}.png`, content: picture });
         if (this.activity.value !== activity) return undefined;
@@ -219,7 +224,7 @@ export class FlightDeck {
       if (this.stage.isWatching) throw new Error(watchingText);
       if (this.stage.movements !== this.expected)
         throw new Error("The view was moved meanwhile: no pictures are saved");
-      const picture = this.stage.exactNow();
+      const picture = this.pictures.exactNow();
       if (picture !== undefined) return picture;
       await new Promise((resolve) => setTimeout(resolve, 5));
     }

@@ -218,7 +218,7 @@ function pictures(deck: FlightDeck, state: State): HTMLElement {
 }
 
 export function showFlight(state: State, viewer: Viewer): FlightDeck {
-  const deck = new FlightDeck(viewer, (text) => state.notice.set(text));
+  const deck = new FlightDeck(viewer.steering, viewer, (text) => state.notice.set(text));
   const details = make("details", "plots", make("summary", "heading", "Flight"));
   details.title = "Fly and record, play, edit (B, Y, N)";
   const open = (): void => void (details.open = true);

@@ -97,7 +97,7 @@ function objectRow(state: State, viewer: Viewer, object: number): Shown {
   const only = button("Only", `Show ${name} alone, or all again`, () =>
     hide(alone(state.look.value.hidden, object, objectNames.length)),
   );
-  const go = button("Go to", `Bring ${name} into view`, () => viewer.goToObject(object));
+  const go = button("Go to", `Bring ${name} into view`, () => viewer.steering.goToObject(object));
   only.ariaLabel = only.title;
   go.ariaLabel = go.title;
   const facts = make("summary", "note", objectText(objects[object]) || "Look");

@@ -2,7 +2,6 @@
 // Who drew what of the last picture, and how long it took: as a list, and over the picture.
 import type { PartStatistics } from "../protocol/messages";
 import type { State } from "../state";
-import type { Viewer } from "../viewer";
 import { byId, make } from "./element";
 import { count, milliseconds } from "./format";
 import { change } from "./look_controls";
@@ -85,7 +84,7 @@ function rectangle(part: PartStatistics, colour: string): HTMLElement {
   return element;
 }
 
-export function showRenderers(state: State, viewer: Viewer): void {
+export function showRenderers(state: State): void {
   const list = make("ul", "renderers");
   list.ariaLabel = "Renderers of the last picture";
   const overlay = byId("parts", HTMLElement);
@@ -121,7 +120,7 @@ export function showRenderers(state: State, viewer: Viewer): void {
   });
   // By a link, or by who leads.
   state.look.watch(({ rangeTint }) => {
-    const isLed = viewer.isWatching && hasRanges(state.numbers.value?.parts ?? []);
+    const isLed = state.isWatching && hasRanges(state.numbers.value?.parts ?? []);
     if (rangeTint || isLed) isTinted = rangeTint;
     tint.setAttribute("aria-pressed", String(isTinted));
   });
@@ -134,7 +133,7 @@ export function showRenderers(state: State, viewer: Viewer): void {
   state.numbers.watch((numbers) => {
     if (numbers !== null && numbers.frameNumber === shown) return;
     shown = numbers?.frameNumber ?? 0;
-    if (!viewer.isWatching) tintRanges();
+    if (!state.isWatching) tintRanges();
     update();
   });
 }

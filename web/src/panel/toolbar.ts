@@ -23,13 +23,13 @@ export function setUpToolbar(state: State, viewer: Viewer): void {
   showPanel(!window.matchMedia(narrow).matches);
   toggle.addEventListener("click", () => showPanel(panel.hidden));
   byId("home", HTMLButtonElement).addEventListener("click", (event) =>
-    viewer.goHome(event.timeStamp),
+    viewer.steering.goHome(event.timeStamp),
   );
   byId("help-open", HTMLButtonElement).addEventListener("click", toggleHelp);
   const walk = byId("walk", HTMLButtonElement);
   const walkMode = byId("walk-mode", HTMLElement);
-  fly.addEventListener("click", () => viewer.setFlying(!state.flying.value));
-  walk.addEventListener("click", () => viewer.setWalking(!state.walking.value));
+  fly.addEventListener("click", () => viewer.steering.setFlying(!state.flying.value));
+  walk.addEventListener("click", () => viewer.steering.setWalking(!state.walking.value));
   state.flying.watch((isFlying) => {
     fly.setAttribute("aria-pressed", String(isFlying));
     mode.hidden = !isFlying;
@@ -43,6 +43,6 @@ export function setUpToolbar(state: State, viewer: Viewer): void {
     h: toggleHelp,
     "?": toggleHelp,
     p: () => showPanel(panel.hidden),
-    " ": () => viewer.clickMiddle(),
+    " ": () => viewer.steering.clickMiddle(),
   });
 }

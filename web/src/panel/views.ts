@@ -132,9 +132,9 @@ export function showViews(state: State, viewer: Viewer): void {
   standardViews.forEach((view, i) => {
     const key = String(i + 1);
     standard.append(
-      button(view.name, `${view.name} (${key})`, () => viewer.goTo(i, performance.now())),
+      button(view.name, `${view.name} (${key})`, () => viewer.steering.goTo(i, performance.now())),
     );
-    keys[key] = (time) => viewer.goTo(i, time);
+    keys[key] = (time) => viewer.steering.goTo(i, time);
   });
   onKeys(keys);
   byId("views", HTMLElement).append(

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Camera } from "./camera/camera";
+import { isUsable } from "./camera/camera";
+import type { CameraHolder } from "./camera/controls";
+import { Controls } from "./camera/controls";
+import type { Keys } from "./camera/fly";
+import type { DistanceLimits } from "./camera/orbit";
+import { distanceLimits } from "./camera/orbit";
+import type { Bounds, Direction } from "./camera/standard";
+import { directionOfView, standardCamera, standardViews } from "./camera/standard";
+import type { Point } from "./camera/touch";
+import { seenFrom } from "./camera/walk";
+import { homeOf, objectBounds, wholeBounds } from "./drawn_bounds";
+import type { State } from "./state";
+import { watchingText } from "./state";
+import type { Size } from "./view/size";
+import type { WalkerEvents } from "./walker";
+import { Walker } from "./walker";
+
+export interface SteeringEvents {
+  /** There is another camera; `inputTime`: of the event that caused it, if one did. */
+  moved(inputTime: number | undefined): void;
+  /** The same camera shows something else: a walk has begun or ended. */
+  changed(): void;
+  /** The picture was clicked at; `turns`: the camera is to turn there. */
+  clicked(at: Point, turns: boolean): void;
+  /** Asks for the ground on which a walk goes on. */
+  ask: WalkerEvents["ask"];
+  /** No view was sent since the one of that sequence. */
+  isNewest(sequence: number): boolean;
+  /** In CSS pixels. */
+  canvasSize(): Size;
+}
+
+/** The camera, and all that moves it: hands, keys, walks, flights, and views of the scene. */
+export class Steering implements CameraHolder {
+  camera: Camera | null = null;
+  limits: DistanceLimits = distanceLimits(1);
+
+  /** How often the camera was moved, by whomever. */
+  movements = 0;
+
+  private readonly controls: Controls;
+  private readonly walker: Walker;
+  /** What the last frame said of the camera of its view. */
+  private lifted: { camera: Camera | undefined; sequence: number } = {
+    camera: undefined,
+    sequence: 0,
+  };
+  /** The camera with which a walk has ended. */
+  private walked: Camera | null = null;
+  /** The last camera of a flight. */
+  private flown: Camera | null = null;
+
+  constructor(
+    canvas: HTMLCanvasElement,
+    private readonly state: State,
+    private readonly events: SteeringEvents,
+  ) {
+    this.controls = new Controls(canvas, this);
+    this.walker = new Walker({
+      moved: (camera, time) => this.moveTo(camera, time),
+      ask: (from, to, samples, answered) => events.ask(from, to, samples, answered),
+      failed: (isAnswered) => {
+        state.walking.set(false);
+        state.notice.set(
+          isAnswered
+            ? "There is no ground to stand on there"
+            : "The ground cannot be asked for now: try again when pictures come",
+        );
+      },
+    });
+    state.walking.watch((isWalking) => this.walkingChanged(isWalking));
+    this.keepWalkerOnGround();
+  }
+
+  close(): void {
+    this.controls.close();
+  }
+
+  get isDragging(): boolean {
+    return this.controls.isDragging;
+  }
+
+  /** Another moves the view, or nobody: this page only sees it. */
+  get isWatching(): boolean {
+    return this.state.isWatching;
+  }
+
+  get isFlying(): boolean {
+    return this.state.flying.value;
+  }
+
+  setFlying(isFlying: boolean): void {
+    if (isFlying) this.state.walking.set(false);
+    this.state.flying.set(isFlying);
+  }
+
+  get isWalking(): boolean {
+    return this.state.walking.value;
+  }
+
+  setWalking(isWalking: boolean): void {
+    if (isWalking && this.isWatching) return this.state.notice.set(watchingText);
+    if (isWalking) this.state.flying.set(false);
+    this.state.walking.set(isWalking);
+  }
+
+  walk(keys: Keys, isFast: boolean, seconds: number, time: number): void {
+    this.walker.walk(keys, isFast, seconds, time);
+  }
+
+  scaleWalker(factor: number, time: number): void {
+    this.walker.scale(factor, time);
+  }
+
+  private walkingChanged(isWalking: boolean): void {
+    if (isWalking && this.camera !== null) this.walker.begin(this.camera);
+    else {
+      this.walker.end();
+      this.walked = this.camera;
+    }
+    this.events.changed();
+  }
+
+  private keepWalkerOnGround(): void {
+    const { look } = this.state;
+    let [exaggeration, hidden] = [look.value.exaggeration, look.value.hidden];
+    look.watch((now) => {
+      const isSame = now.exaggeration === exaggeration && now.hidden === hidden;
+      ({ exaggeration, hidden } = now);
+      if (!isSame) this.walker.groundChanged();
+    });
+  }
+
+  move(camera: Camera, inputTime?: number): void {
+    if (this.isWalking && isUsable(camera)) {
+      if (this.walker.isAt(camera)) this.walker.turned(camera);
+      else this.state.walking.set(false);
+    }
+    this.moveTo(camera, inputTime);
+  }
+
+  private moveTo(camera: Camera, inputTime?: number): void {
+    if (!isUsable(camera)) return;
+    if (this.isWatching) {
+      if (inputTime !== undefined) this.state.notice.set(watchingText);
+      return;
+    }
+    this.camera = camera;
+    this.movements += 1;
+    this.events.moved(inputTime);
+  }
+
+  /** To a camera of a flight, which may have been recorded walking: nothing lifts it. */
+  moveAlong(camera: Camera): void {
+    this.flown = camera;
+    this.move(camera);
+  }
+
+  goHome(inputTime?: number): void {
+    const session = this.state.session.value;
+    const home = session && homeOf(session, this.state.look.value.exaggeration, this.aspect);
+    if (home) this.move(home, inputTime);
+  }
+
+  /** From where maps and drawings show things; `index` in standardViews. */
+  goTo(index: number, inputTime?: number): void {
+    const [view, session] = [standardViews[index], this.state.session.value];
+    const bounds = session && wholeBounds(session, this.state.look.value.exaggeration);
+    if (view !== undefined && bounds) this.frame(bounds, view, inputTime);
+  }
+
+  /** One object in the middle of the picture, from the direction that it is seen from now. */
+  goToObject(object: number): void {
+    const { session, look } = this.state;
+    const bounds = objectBounds(session.value?.objects[object], look.value.exaggeration);
+    if (bounds === undefined || this.camera === null) return;
+    this.frame(bounds, directionOfView(this.camera), performance.now());
+  }
+
+  private frame(bounds: Bounds, from: Direction, inputTime: number | undefined): void {
+    const fovyDegrees = this.camera?.fovyDegrees ?? 45;
+    this.move(standardCamera(from, bounds, this.aspect, fovyDegrees), inputTime);
+  }
+
+  private get aspect(): number {
+    const { width, height } = this.events.canvasSize();
+    return width / Math.max(1, height);
+  }
+
+  clicked(at: Point): void {
+    this.events.clicked(at, false);
+  }
+
+  /** Turns to the point and, from then on, about it. */
+  doubleClicked(at: Point): void {
+    this.events.clicked(at, true);
+  }
+
+  /** Clicks at the middle of the picture, for those without a pointer. */
+  clickMiddle(): void {
+    const { width, height } = this.events.canvasSize();
+    this.clicked({ x: width / 2, y: height / 2 });
+  }
+
+  /**
+   * Nothing lifts a walk out of the ground, which is nearer to it than the server would let, nor what
+   * is shown of a flight.
+   */
+  get goesUnderground(): boolean {
+    const isFlown = this.camera !== null && this.camera === this.flown;
+    return this.isWalking || isFlown;
+  }
+
+  /** A frame says that the server has lifted the camera of its view out of the ground, or not. */
+  liftedTo(camera: Camera | undefined, sequence: number): void {
+    this.lifted = { camera, sequence };
+    this.adoptLifted();
+  }
+
+  dragEnded(): void {
+    this.adoptLifted();
+  }
+
+  /**
+   * Goes on from the camera that the server lifted out of the ground, so that the next movement
+   * starts from what is seen; not while a newer view is on its way, nor during a drag, which so
+   * leads back to where it came from.
+   */
+  private adoptLifted(): void {
+    const { camera, sequence } = this.lifted;
+    const isNewest = this.events.isNewest(sequence);
+    if (camera === undefined || !isNewest || this.isDragging) return;
+    // What a walk looks at is near: with the eye alone lifted one would look down at it.
+    if (this.camera !== null && this.camera === this.walked)
+      this.moveTo(seenFrom(this.camera, camera.eye));
+    else this.camera = camera;
+  }
+}
