@@ -17,6 +17,12 @@ namespace {
 
 using fabric::Vec2;
 
+/// As many digits as the file's own type has.
+std::string digitsOf(double value) {
+    const auto nearest = static_cast<float>(value);
+    return nearest == value ? fmt::format("{}", nearest) : fmt::format("{}", value);
+}
+
 /// `out` rows from the last to the first where the raster's first row is the frame's last.
 class LayeredSource : public HeightSource {
 public:
@@ -65,9 +71,9 @@ public:
             for (const DemFile& file : layer.files)
                 if (const auto& found = *file.impossible)
                     findings.push_back(fmt::format(
-                        "{:.9g} in column {} and row {} of {} can be no height; it is taken for "
+                        "{} in column {} and row {} of {} can be no height; it is taken for "
                         "nodata, and so is what else is like it",
-                        found->value, found->column, found->row, file.path));
+                        digitsOf(found->value), found->column, found->row, file.path));
         return findings;
     }
 
