@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/import/assimp_reader.h"
+#include "renderer/import/mesh_reader.h"
 #include "renderer/import/obj_textures.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
@@ -65,6 +66,19 @@ TEST(AssimpReader, TakesMaterialsAndImagesThatAreInTheFile) {
 std::string texturedGltf(std::string_view from, std::string_view to) {
     std::string text = kTexturedGltf;
     return text.replace(text.find(from), from.size(), to);
+}
+
+fabric::Rgba firstColourOf(const std::string& gltf) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.gltf"), gltf);
+    const auto mesh = readMesh(folder.file("m.gltf"));
+    EXPECT_TRUE(mesh.ok()) << mesh.status();
+    return mesh.ok() ? mesh->colours[mesh->triangles[0][0]] : fabric::Rgba{};
+}
+
+TEST(AssimpReader, TakesAGltfsColoursOfThreeNumbersForOpaque) {
+    EXPECT_EQ(firstColourOf(texturedGltf(R"("TEXCOORD_0":1})", R"("TEXCOORD_0":1,"COLOR_0":0})")),
+              (fabric::Rgba{0, 0, 0, 102}));
 }
 
 /// Where the point at u = 1 or v = 1 of a texture comes to by a KHR_texture_transform, v downwards.
