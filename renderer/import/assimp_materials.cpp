@@ -194,7 +194,7 @@ AssimpMaterials::Entry AssimpMaterials::read(const aiMaterial& material) {
     if (mode == AlphaMode::Unknown)
         drawn.flags |= kAlphaByImage;
     const bool isBlack = entry.colour.r == 0 && entry.colour.g == 0 && entry.colour.b == 0;
-    if (format_.texturesReplaceColours || isBlack)
+    if (format_.texturesReplaceColours || (isBlack && !format_.isGltf()))
         drawn.flags |= kReplacesColour;
     entry.number = number(drawn);
     return entry;

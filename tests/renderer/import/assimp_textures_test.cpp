@@ -12,6 +12,7 @@
 #include "renderer/import/assimp_reader.h"
 #include "renderer/import/mesh_reader.h"
 #include "renderer/import/obj_textures.h"
+#include "tests/renderer/import/tga_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
 namespace eyrie::import {
@@ -79,6 +80,24 @@ fabric::Rgba firstColourOf(const std::string& gltf) {
 TEST(AssimpReader, TakesAGltfsColoursOfThreeNumbersForOpaque) {
     EXPECT_EQ(firstColourOf(texturedGltf(R"("TEXCOORD_0":1})", R"("TEXCOORD_0":1,"COLOR_0":0})")),
               (fabric::Rgba{0, 0, 0, 102}));
+}
+
+/// kTexturedGltf with another factor and an image of one texel beside it.
+absl::StatusOr<TriangleMesh> readWithTexel(std::string_view factor, fabric::Rgba texel) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.tga"), test::tgaOf(1, 1, {texel}));
+    std::string text = texturedGltf("[1,1,1,0.4]", factor);
+    const std::string_view image = "data:image/png;base64,QUJDRA==";
+    text.replace(text.find(image), image.size(), "m.tga");
+    test::writeFile(folder.file("m.gltf"), text);
+    return readMesh(folder.file("m.gltf"));
+}
+
+TEST(AssimpReader, KeepsAGltfsTexturesBlackWhereTheirFactorIs) {
+    const auto mesh = readWithTexel("[0,0,0,0.4]", {9, 8, 7, 255});
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_EQ(mesh->images.size(), 1U);
+    EXPECT_EQ(mesh->colours[mesh->triangles[0][0]], (fabric::Rgba{0, 0, 0, 102}));
 }
 
 /// Where the point at u = 1 or v = 1 of a texture comes to by a KHR_texture_transform, v downwards.
