@@ -85,7 +85,8 @@ struct AlphaUse {
     bool isSoft = false;  ///< half see-through more than it is holes
 };
 
-AlphaUse alphaUseOf(const std::vector<fabric::Rgba>& texels) {
+/// By a guess, where the format does not say what alpha is for.
+AlphaUse guessedAlphaUseOf(const std::vector<fabric::Rgba>& texels) {
     std::size_t notOpaque = 0, between = 0;
     for (const fabric::Rgba& texel : texels) {
         notOpaque += texel.a < kOpaque ? 1 : 0;
@@ -107,7 +108,7 @@ public:
 private:
     absl::Status load(std::size_t texture);
     absl::StatusOr<mesh::Image> read(std::size_t texture) const;
-    bool usesAlpha(std::size_t texture) const;
+    AlphaUse alphaUseOf(std::size_t texture, const std::vector<fabric::Rgba>& texels) const;
     void settleAlpha(std::size_t texture, const AlphaUse& use);
 
     const TriangleMesh& mesh_;
@@ -116,11 +117,23 @@ private:
     TriangleMesh result_;  ///< materials, images and notes
 };
 
-bool Loading::usesAlpha(std::size_t texture) const {
-    return std::ranges::any_of(mesh_.materials, [&](const mesh::Material& material) {
-        return material.image == static_cast<std::int32_t>(texture) &&
-               (material.isSeeThrough() || (material.flags & kAlphaByImage) != 0);
-    });
+AlphaUse Loading::alphaUseOf(std::size_t texture,
+                             const std::vector<fabric::Rgba>& texels) const {
+    bool isUsed = false, isStated = false;
+    for (const mesh::Material& material : mesh_.materials) {
+        const bool isAsked = (material.flags & kAlphaByImage) != 0;
+        if (material.image != static_cast<std::int32_t>(texture) ||
+            !(isAsked || material.isSeeThrough()))
+            continue;
+        isUsed = true;
+        isStated = isStated || !isAsked;
+    }
+    if (isStated)
+        return {std::ranges::any_of(texels, [](const fabric::Rgba& texel) { return texel.a < 255; }),
+                false};
+    if (!isUsed)
+        return {};
+    return guessedAlphaUseOf(texels);
 }
 
 void Loading::settleAlpha(std::size_t texture, const AlphaUse& use) {
@@ -150,7 +163,7 @@ absl::Status Loading::load(std::size_t texture) {
     }
     mesh::ImageShape shape;
     ASSIGN_OR_RETURN(std::vector<fabric::Rgba> texels, decode(bytes, shape));
-    const AlphaUse use = usesAlpha(texture) ? alphaUseOf(texels) : AlphaUse();
+    const AlphaUse use = alphaUseOf(texture, texels);
     shape.flags = source.flags | (use.hasAlpha ? mesh::kHasAlpha : 0);
     settleAlpha(texture, use);
     imageOf_[texture] = static_cast<std::int32_t>(result_.images.size());

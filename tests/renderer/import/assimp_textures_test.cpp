@@ -100,6 +100,18 @@ TEST(AssimpReader, KeepsAGltfsTexturesBlackWhereTheirFactorIs) {
     EXPECT_EQ(mesh->colours[mesh->triangles[0][0]], (fabric::Rgba{0, 0, 0, 102}));
 }
 
+TEST(AssimpReader, LeavesTheAlphaOfAGltfsImagesAsItIs) {
+    const auto mesh = readWithTexel("[1,1,1,1]", {9, 8, 7, 225});
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_EQ(mesh->images.size(), 1U);
+    EXPECT_TRUE(mesh->images[0].shape.hasAlpha());
+    const auto materialOf = [&](std::size_t triangle) {
+        return mesh->materials[mesh->materialOf[mesh->triangles[triangle][0]]];
+    };
+    EXPECT_TRUE(materialOf(0).isBlended());
+    EXPECT_EQ(materialOf(1).alphaCutoff, 0.25F);
+}
+
 /// Where the point at u = 1 or v = 1 of a texture comes to by a KHR_texture_transform, v downwards.
 glm::vec2 transformedPlace(std::string_view transform, bool isV) {
     const test::TemporaryFolder folder;
