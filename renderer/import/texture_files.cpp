@@ -108,17 +108,17 @@ public:
 private:
     absl::Status load(std::size_t texture);
     absl::StatusOr<mesh::Image> read(std::size_t texture) const;
-    AlphaUse alphaUseOf(std::size_t texture, const std::vector<fabric::Rgba>& texels) const;
+    AlphaUse alphaUseOf(std::size_t texture, const std::vector<fabric::Rgba>& texels);
     void settleAlpha(std::size_t texture, const AlphaUse& use);
 
     const TriangleMesh& mesh_;
     const std::string& path_;
     std::vector<std::int32_t> imageOf_;
+    std::size_t takenForOpaque_ = 0;
     TriangleMesh result_;  ///< materials, images and notes
 };
 
-AlphaUse Loading::alphaUseOf(std::size_t texture,
-                             const std::vector<fabric::Rgba>& texels) const {
+AlphaUse Loading::alphaUseOf(std::size_t texture, const std::vector<fabric::Rgba>& texels) {
     bool isUsed = false, isStated = false;
     for (const mesh::Material& material : mesh_.materials) {
         const bool isAsked = (material.flags & kAlphaByImage) != 0;
@@ -128,11 +128,17 @@ AlphaUse Loading::alphaUseOf(std::size_t texture,
         isUsed = true;
         isStated = isStated || !isAsked;
     }
+    const auto isAny = [&texels](auto has) {
+        return std::ranges::any_of(texels, has, &fabric::Rgba::a);
+    };
     if (isStated)
-        return {std::ranges::any_of(texels, [](const fabric::Rgba& texel) { return texel.a < 255; }),
-                false};
+        return {isAny([](std::uint8_t alpha) { return alpha < 255; }), false};
     if (!isUsed)
         return {};
+    if (!isAny([](std::uint8_t alpha) { return alpha >= kClear; })) {
+        ++takenForOpaque_;
+        return {};
+    }
     return guessedAlphaUseOf(texels);
 }
 
@@ -189,6 +195,11 @@ absl::StatusOr<TriangleMesh> Loading::run() {
         result_.notes.push_back(fmt::format(
             "{} of {} textures cannot be read, and their materials have their colour alone: {}",
             failed, mesh_.textures.size(), first));
+    if (takenForOpaque_ > 0)
+        result_.notes.push_back(
+            fmt::format("{} of {} textures have no opacity at all, and nobody would see them: they "
+                        "are taken for opaque",
+                        takenForOpaque_, mesh_.textures.size()));
     return std::move(result_);
 }
 

@@ -20,7 +20,8 @@ namespace eyrie::import {
 /// and the reason; its materials have their colour alone. Where a material of kReplacesColour has
 /// its image colours become white. Alpha is kept where a material uses it.
 /// A material of kAlphaByImage whose image has alpha is blended if more than half of the texels
-/// that are not opaque are not clear either, and has holes otherwise. Materials that are blended
+/// that are not opaque are not clear either, and has holes otherwise; it is opaque if all texels
+/// are clear, which notes say. Materials that are blended
 /// for nothing are opaque; the same materials are one; and where there is nothing but a plain one
 /// there is none. Errors: Cancelled.
 absl::Status loadTextures(TriangleMesh& mesh, const std::string& path,

@@ -124,6 +124,22 @@ TEST(MeshReader, ReadsTexturesAndCountsThoseThatAreMissing) {
     EXPECT_EQ(colourOf(3), (fabric::Rgba{0, 255, 0, 255}));
 }
 
+/// As of images of 32 bits whose last eight mean nothing.
+TEST(MeshReader, TakesImagesOfWhichNothingShowsForOpaque) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    test::writeFile(folder.file("m.mtl"), "newmtl tiles\nmap_Kd a.tga\n");
+    std::string image = test::tgaOf(2, 1, {{9, 8, 7, 0}, {1, 2, 3, 0}});
+    image[17] = 0x20;
+    test::writeFile(folder.file("a.tga"), image);
+    const auto mesh = readMesh(folder.file("m.obj"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_EQ(mesh->images.size(), 1U);
+    EXPECT_FALSE(mesh->images[0].shape.hasAlpha());
+    EXPECT_EQ(mesh->materials[mesh->materialOf[0]], (mesh::Material{.image = 0}));
+    EXPECT_THAT(mesh->notes, testing::ElementsAre(HasSubstr("1 of 1 textures have no opacity")));
+}
+
 constexpr const char* kTexturedPly =
     "ply\nformat ascii 1.0\ncomment TextureFile <this>_A.png\ncomment TextureFile lost.png\n"
     "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
