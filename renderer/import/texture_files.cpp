@@ -25,6 +25,7 @@
 #include <stb/stb_image.h>
 
 #include "fabric/status.h"
+#include "renderer/import/mesh_reader.h"
 #include "renderer/import/reading_process.h"
 #include "renderer/import/sgi_image.h"
 #include "renderer/import/uri_name.h"
@@ -209,9 +210,13 @@ void replaceColours(TriangleMesh& mesh) {
         const mesh::Material& material = mesh.materials[mesh.materialOf[vertex]];
         return material.hasImage() && (material.flags & kReplacesColour) != 0;
     };
-    for (std::size_t i = 0; i < mesh.colours.size(); ++i)
-        if (isReplaced(i))
-            mesh.colours[i] = {255, 255, 255, mesh.colours[i].a};
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        if (!isReplaced(i))
+            continue;
+        if (mesh.colours.empty())
+            mesh.colours.assign(mesh.positions.size(), kPlainColour);
+        mesh.colours[i] = {255, 255, 255, mesh.colours[i].a};
+    }
     for (mesh::Material& material : mesh.materials)
         material.flags &= ~(kAlphaByImage | kReplacesColour);
 }

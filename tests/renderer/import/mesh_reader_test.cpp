@@ -166,6 +166,21 @@ TEST(MeshReader, LoadsTheTexturesOfAPlyAndKeepsItsColoursWhereOneIsMissing) {
     EXPECT_EQ(mesh->colours[lost], (fabric::Rgba{255, 0, 0, 255}));
 }
 
+TEST(MeshReader, ShowsATextureInFullWhereNothingElseHasAColour) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("w.tga"), test::tgaOf(1, 1, {{9, 8, 7, 255}}));
+    test::writeFile(folder.file("m.x3d"),
+                    R"(<?xml version="1.0"?><X3D profile="Interchange" version="3.3"><Scene><Shape>
+<Appearance><ImageTexture url='"w.tga"'/></Appearance>
+<IndexedFaceSet coordIndex="0 1 2 -1" texCoordIndex="0 1 2 -1">
+<Coordinate point="0 0 0 1 0 0 0 1 0"/><TextureCoordinate point="0 0 1 0 0 1"/>
+</IndexedFaceSet></Shape></Scene></X3D>)");
+    const auto mesh = readMesh(folder.file("m.x3d"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_THAT(mesh->colours, testing::Each(fabric::Rgba{255, 255, 255, 255}));
+    EXPECT_EQ(mesh->colours.size(), mesh->positions.size());
+}
+
 TEST(MeshReader, LoadsBothImagesOfATexturedPlyOfMeshLab) {
     const test::TemporaryFolder folder;
     const std::string data = EYRIE_SOURCE_DIR "/../shared/data/hard/ply/";
