@@ -180,6 +180,7 @@ TEST(AssimpReader, ScalesAndShiftsTexturesOfAnObjAsItsMaterialsSay) {
     expect("map_Kd a wall.png", {1, 1}, {0, 0});
     expect("map_Kd -s 2 3 1 -o 0.25 0.5 0 a wall.png", {2.25F, 0.5F}, {0.25F, -2.5F});
     expect("map_Kd -s 2 3 a wall.png", {2, 1}, {0, -2});
+    expect("map_kd -s 2 3 a wall.png", {2, 1}, {0, -2});
     expect("map_Kd -o 0.25 -clamp off -mm 0 1 -t 1 1 1 a wall.png", {1.25F, 1}, {0.25F, 0});
 }
 

@@ -278,6 +278,10 @@ TEST(MeshSourceHash, IsThatOfALoneFileAndCountsItsCompany) {
     const std::uint64_t scaled = *meshSourceHash(paths);
     test::writeFile(folder.file("m.png"), "b");
     EXPECT_NE(scaled, *meshSourceHash(paths));
+    test::writeFile(folder.file("m.mtl"), "newmtl red\nmap_kd m.png\n");
+    const std::uint64_t lowerCase = *meshSourceHash(paths);
+    test::writeFile(folder.file("m.png"), "c");
+    EXPECT_NE(lowerCase, *meshSourceHash(paths));
 }
 
 TEST(MeshSourceHash, CountsTexturesOfPly) {
