@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -258,6 +259,22 @@ void mergeMaterials(TriangleMesh& mesh) {
         mesh.textureCoordinates.clear();
 }
 
+void noteFarPlaces(TriangleMesh& mesh) {
+    const auto isFar = [&mesh](std::size_t vertex) {
+        const glm::vec2 place = mesh.textureCoordinates[vertex];
+        return mesh.materials[mesh.materialOf[vertex]].hasImage() &&
+               !(std::abs(place.x) <= kMostImageSides && std::abs(place.y) <= kMostImageSides);
+    };
+    std::size_t far = 0;
+    for (std::size_t i = 0; i < mesh.textureCoordinates.size(); ++i) far += isFar(i) ? 1 : 0;
+    if (far > 0)
+        mesh.notes.push_back(
+            fmt::format("texture coordinates of {} of {} vertices are no numbers or more than {} "
+                        "sides of the image away, and textures lie wrong there: take whole "
+                        "numbers off them",
+                        far, mesh.positions.size(), kMostImageSides));
+}
+
 /// The file that `name` means as it stands.
 std::string findAsNamed(const std::string& name, const std::string& path) {
     std::string plain = name;
@@ -317,6 +334,7 @@ absl::Status loadTextures(TriangleMesh& mesh, const std::string& path,
     replaceColours(mesh);
     dropIdleBlending(mesh);
     mergeMaterials(mesh);
+    noteFarPlaces(mesh);
     return absl::OkStatus();
 }
 

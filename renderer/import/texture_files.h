@@ -10,6 +10,9 @@
 
 namespace eyrie::import {
 
+/// In either direction; texture coordinates that are farther away are cut off there.
+inline constexpr double kMostImageSides = 16384;
+
 /// Reads the images that `mesh` names, where a source at `path` would have them, into
 /// TriangleMesh::images, in a process of its own (reading_process.h): PNG, JPEG, TGA, BMP, GIF, PSD
 /// and what else stb_image knows, and SGI's, up to mesh::kMaxImageSide a side. Names may have
@@ -23,7 +26,7 @@ namespace eyrie::import {
 /// that are not opaque are not clear either, and has holes otherwise; it is opaque if all texels
 /// are clear, which notes say. Materials that are blended
 /// for nothing are opaque; the same materials are one; and where there is nothing but a plain one
-/// there is none. Errors: Cancelled.
+/// there is none. Notes say how many texture coordinates will be cut off. Errors: Cancelled.
 absl::Status loadTextures(TriangleMesh& mesh, const std::string& path,
                           const ImportControl& control);
 

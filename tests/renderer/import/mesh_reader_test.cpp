@@ -124,6 +124,21 @@ TEST(MeshReader, ReadsTexturesAndCountsThoseThatAreMissing) {
     EXPECT_EQ(colourOf(3), (fabric::Rgba{0, 255, 0, 255}));
 }
 
+TEST(MeshReader, SaysWhereTextureCoordinatesAreFartherThanCanBeKept) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.mtl"),
+                    "newmtl tiles\nmap_Kd tiles.tga\nnewmtl pane\nKd 0 0 1\n");
+    test::writeFile(folder.file("tiles.tga"), test::tgaOf(1, 1, {{9, 8, 7, 255}}));
+    const auto notesOf = [&](const std::string& place) {
+        test::writeFile(folder.file("m.obj"),
+                        "mtllib m.mtl\nv 5 0 0\nv 6 0 0\nv 5 1 0\nvt 0 0\nvt 1 0\nvt " + place +
+                            "\nusemtl tiles\nf 1/1 2/2 3/3\nusemtl pane\nf 1/1 3/3 2/2\n");
+        return readMesh(folder.file("m.obj"))->notes;
+    };
+    EXPECT_THAT(notesOf("-16383 16384"), testing::IsEmpty());
+    EXPECT_THAT(notesOf("0 -20000"), testing::ElementsAre(HasSubstr("1 of 6 vertices")));
+}
+
 /// As of images of 32 bits whose last eight mean nothing.
 TEST(MeshReader, TakesImagesOfWhichNothingShowsForOpaque) {
     const test::TemporaryFolder folder;
