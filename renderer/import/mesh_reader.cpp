@@ -16,6 +16,7 @@
 #include "fabric/status.h"
 #include "renderer/import/assimp_reader.h"
 #include "renderer/import/jdn_reader.h"
+#include "renderer/import/named_images.h"
 #include "renderer/import/obj_textures.h"
 #include "renderer/import/ply_reader.h"
 #include "renderer/import/source_lights.h"
@@ -115,7 +116,7 @@ absl::StatusOr<std::vector<std::string>> namesIn(const std::string& path) {
     const auto kind = std::ranges::find_if(
         kMentions, [&](const Mention& mention) { return endsWith(path, mention.ending); });
     if (kind == kMentions.end())
-        return std::vector<std::string>();
+        return imagesNamedIn(text);
     return mentionedFiles(text, kind->mark, kind->ends);
 }
 

@@ -321,6 +321,32 @@ TEST(MeshSourceHash, CountsBuffersOfGltf) {
     EXPECT_NE(before, *meshSourceHash(paths));
 }
 
+TEST(MeshSourceHash, CountsTexturesThatAreNamedAnyhow) {
+    const test::TemporaryFolder folder;
+    const auto expectCounted = [&](const std::string& name, std::string_view text) {
+        SCOPED_TRACE(text);
+        const std::vector<std::string> paths = {folder.file(name)};
+        test::writeFile(paths[0], std::string(text));
+        test::writeFile(folder.file("a wall.PNG"), "a");
+        const std::uint64_t before = *meshSourceHash(paths);
+        test::writeFile(folder.file("a wall.PNG"), "b");
+        EXPECT_NE(before, *meshSourceHash(paths));
+    };
+    using namespace std::string_view_literals;
+    expectCounted("m.dae", "<init_from>./maps/a%20wall.png</init_from>");
+    expectCounted("m.x3d", R"(<ImageTexture url='"a wall.png" "http://b.c/wall.png"'/>)");
+    expectCounted("m.x3d", R"(<ImageTexture url="&quot;a wall.png&quot;"/>)");
+    expectCounted("m.fbx", R"(RelativeFilename: "..\maps\a wall.png")");
+    expectCounted("m.fbx", "\x10RelativeFilenameS\x0A\0\0\0a wall.PNG\0\0"sv);
+    expectCounted("m.3ds", "\x00\xA3\x11\0\0\0a wall.png\0\x51\xA3"sv);
+    expectCounted("m.glb", R"({"images":[{"uri":"a%20wall.png"}]})");
+    const std::vector<std::string> paths = {folder.file("m.dae")};
+    for (const std::string_view text : {"", ".", ".png", ">.png", "a wall.pn", "a wall.pngs"}) {
+        test::writeFile(paths[0], std::string(text));
+        EXPECT_EQ(*meshSourceHash(paths), *mesh::contentHash(paths[0])) << text;
+    }
+}
+
 TEST(FindTexture, TakesNamesAsTheyStandBeforeItTakesThemForUris) {
     const test::TemporaryFolder folder;
     const std::string source = folder.file("m.gltf");
