@@ -85,12 +85,20 @@ std::string textureName(const aiMaterial& material, aiTextureType type, unsigned
     return material.GetTexture(type, index, &path) == AI_SUCCESS ? path.C_Str() : "";
 }
 
+/// Of the texture that a material's diffuse colour has. FBX's physical materials have a base colour
+/// alone, glTF's both.
+aiTextureType colourTypeOf(const aiMaterial& material) {
+    return material.GetTextureCount(aiTextureType_DIFFUSE) > 0 ? aiTextureType_DIFFUSE
+                                                               : aiTextureType_BASE_COLOR;
+}
+
 /// Whether a material has a texture of `type` besides the one of its diffuse colour. Formats that
 /// know opacity by the alpha of that name it twice.
 bool hasOtherTexture(const aiMaterial& material, aiTextureType type) {
-    if (type == aiTextureType_DIFFUSE || type == aiTextureType_BASE_COLOR)
+    const aiTextureType colourType = colourTypeOf(material);
+    if (type == colourType)
         return false;
-    const std::string diffuse = textureName(material, aiTextureType_DIFFUSE, 0);
+    const std::string diffuse = textureName(material, colourType, 0);
     for (unsigned int i = 0; i < material.GetTextureCount(type); ++i)
         if (const std::string name = textureName(material, type, i);
             !name.empty() && name != diffuse)
@@ -133,13 +141,14 @@ std::int32_t AssimpMaterials::readTexture(const aiMaterial& material, Entry& ent
     aiString path;
     aiTextureMapMode modes[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
     aiTextureMapping mapping = aiTextureMapping_UV;
-    if (material.GetTexture(aiTextureType_DIFFUSE, 0, &path, &mapping, &entry.channel, nullptr,
-                            nullptr, modes) != AI_SUCCESS ||
+    const aiTextureType type = colourTypeOf(material);
+    if (material.GetTexture(type, 0, &path, &mapping, &entry.channel, nullptr, nullptr, modes) !=
+            AI_SUCCESS ||
         path.length == 0 || std::string_view(path.C_Str()).starts_with("$texture_dummy"))
         return -1;  // Quake's formats name none
     entry.isProjected = mapping != aiTextureMapping_UV;
     aiUVTransform transform;
-    if (material.Get(AI_MATKEY_UVTRANSFORM_DIFFUSE(0), transform) == AI_SUCCESS)
+    if (material.Get(AI_MATKEY_UVTRANSFORM(type, 0), transform) == AI_SUCCESS)
         entry.placeFromSource =
             format_.isGltf() ? gltfMatrixOf(transform) : matrixOf(transform, format_.extension);
     if (format_.extension == ".x3d")  // which hands on as the mode whether they repeat
@@ -194,7 +203,7 @@ AssimpMaterials::Entry AssimpMaterials::read(const aiMaterial& material) {
     if (mode == AlphaMode::Unknown)
         drawn.flags |= kAlphaByImage;
     const bool isBlack = entry.colour.r == 0 && entry.colour.g == 0 && entry.colour.b == 0;
-    if (format_.texturesReplaceColours || isBlack)
+    if (format_.texturesReplaceColours || (isBlack && !format_.isGltf()))
         drawn.flags |= kReplacesColour;
     entry.number = number(drawn);
     return entry;

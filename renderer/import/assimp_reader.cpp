@@ -88,6 +88,12 @@ bool isBelowZero(const aiColor4D& colour) {
     return !(colour.r >= 0 && colour.g >= 0 && colour.b >= 0 && colour.a >= 0);
 }
 
+/// Assimp gives colours of glTF that are of three numbers an alpha of 0, which is to be 1.
+bool lacksAlpha(const aiMesh& mesh, const aiColor4D* colours) {
+    return std::all_of(colours, colours + mesh.mNumVertices,
+                       [](const aiColor4D& colour) { return colour.a == 0; });
+}
+
 bool isNothing(const aiColor4D& colour) { return colour == aiColor4D(0, 0, 0, 0); }
 
 bool hasOwnMaterial(const aiMaterial& material) {
@@ -236,8 +242,11 @@ void SceneMeshes::addColours(const aiMesh& mesh, const aiColor4D* colours) {
     aiColor4D diffuse = colours != nullptr ? aiColor4D(1, 1, 1, 1) : kPlain;
     if (material != nullptr)
         diffuse = materials_.colourOf(mesh);
+    const bool takesOpaque = colours != nullptr && format_.isGltf() && lacksAlpha(mesh, colours);
     for (unsigned int i = 0; i < mesh.mNumVertices; ++i) {
-        const aiColor4D own = colours != nullptr ? colours[i] : aiColor4D(1, 1, 1, 1);
+        aiColor4D own = colours != nullptr ? colours[i] : aiColor4D(1, 1, 1, 1);
+        if (takesOpaque)
+            own.a = 1;
         const auto shown = [this](float value) { return byteOf(value, format_.hasLinearColours); };
         result_.colours.push_back(
             {shown(diffuse.r * own.r), shown(diffuse.g * own.g), shown(diffuse.b * own.b),

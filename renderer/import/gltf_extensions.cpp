@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "access/printable.h"
 #include "renderer/import/gltf_chunks.h"
@@ -45,8 +47,8 @@ std::vector<std::string> namesAt(std::string_view json, std::string_view key) {
     return names;
 }
 
-/// Materials are drawn by their diffuse colour and texture alone, and a texture of a kind that is
-/// not read is named where it is missed.
+/// Materials are drawn by their diffuse colour and texture alone, and textures of a kind that is
+/// not read are told of.
 bool isRead(std::string_view extension) {
     constexpr std::array kPrefixes = {"KHR_materials_", "KHR_texture_", "EXT_texture_",
                                       "MSFT_texture_"};
@@ -65,6 +67,27 @@ absl::Status notRead(std::string_view extension) {
                     isPacked ? ", with EXT_meshopt_compression, or compressed by Draco" : ""));
 }
 
+/// What is left out of textures that have no image but an extension's; empty where there are none.
+std::string textureCaveat(std::string_view json, const std::string& extension) {
+    using Json = nlohmann::json;
+    const auto isNear = [](int depth, Json::parse_event_t, Json&) { return depth < 8; };
+    const Json root = Json::parse(json, isNear, false);
+    const auto textures = root.find("textures");
+    if (textures == root.end())
+        return {};
+    const auto isLost = [&](const Json& texture) {
+        const auto extensions = texture.find("extensions");
+        return extensions != texture.end() && extensions->contains(extension) &&
+               !texture.contains("source");
+    };
+    const auto lost = std::ranges::count_if(*textures, isLost);
+    return lost == 0 ? ""
+                     : fmt::format(
+                           "left out {} of {} textures, whose images are of a kind that is not "
+                           "read ({}): export them as PNG or JPEG",
+                           lost, textures->size(), extension);
+}
+
 }  // namespace
 
 absl::Status checkGltfExtensions(std::span<const std::byte> bytes) {
@@ -76,8 +99,11 @@ absl::Status checkGltfExtensions(std::span<const std::byte> bytes) {
 }
 
 std::vector<std::string> gltfCaveats(std::span<const std::byte> bytes) {
+    constexpr std::array kImages = {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif",
+                                    "MSFT_texture_dds"};
+    const std::string_view json = gltfChunksOf(bytes).json;
     std::vector<std::string> caveats;
-    for (const std::string& extension : namesAt(gltfChunksOf(bytes).json, "extensionsUsed")) {
+    for (const std::string& extension : namesAt(json, "extensionsUsed")) {
         if (extension == "CESIUM_RTC")
             caveats.emplace_back(
                 "left out the centre that its coordinates are relative to (CESIUM_RTC): it is put "
@@ -86,6 +112,9 @@ std::vector<std::string> gltfCaveats(std::span<const std::byte> bytes) {
             caveats.emplace_back(
                 "left out copies of its meshes (EXT_mesh_gpu_instancing): each is where its node "
                 "is");
+        if (std::ranges::count(kImages, extension) > 0)
+            if (std::string caveat = textureCaveat(json, extension); !caveat.empty())
+                caveats.push_back(std::move(caveat));
     }
     return caveats;
 }

@@ -14,7 +14,7 @@ namespace eyrie::import {
 /// takes what it knows. Errors: InvalidArgument, which names the extension and how to do without.
 absl::Status checkGltfExtensions(std::span<const std::byte> bytes);
 
-/// What a file uses that moves or repeats what it shows, without requiring it, and is left out
+/// What a file uses that moves or repeats what it shows, or has its images in, and is left out
 /// here: for TriangleMesh::notes.
 std::vector<std::string> gltfCaveats(std::span<const std::byte> bytes);
 

@@ -16,6 +16,7 @@
 #include "fabric/status.h"
 #include "renderer/import/assimp_reader.h"
 #include "renderer/import/jdn_reader.h"
+#include "renderer/import/named_images.h"
 #include "renderer/import/obj_textures.h"
 #include "renderer/import/ply_reader.h"
 #include "renderer/import/source_lights.h"
@@ -87,10 +88,9 @@ struct Mention {
     std::string_view ends;
 };
 constexpr std::array kMentions = {
-    Mention{".obj", "mtllib", "\r\n"},    Mention{".mtl", "map_Kd", "\r\n"},
-    Mention{".gltf", "\"uri\"", "\""},    Mention{".jdn", "Map Path", "\r\n"},
-    Mention{".ac", "\ntexture", "\"\n"},  Mention{".ac3d", "\ntexture", "\"\n"},
-    Mention{".acc", "\ntexture", "\"\n"},
+    Mention{".obj", "mtllib", "\r\n"},     Mention{".gltf", "\"uri\"", "\""},
+    Mention{".jdn", "Map Path", "\r\n"},   Mention{".ac", "\ntexture", "\"\n"},
+    Mention{".ac3d", "\ntexture", "\"\n"}, Mention{".acc", "\ntexture", "\"\n"},
 };
 
 /// Assimp says nothing when the material files of an OBJ are missing.
@@ -111,14 +111,13 @@ absl::StatusOr<std::vector<std::string>> namesIn(const std::string& path) {
     const std::string_view text = textOf(file);
     if (looksLikePly(text) || endsWith(path, ".ply"))
         return texturesOfPly(text, path);
+    if (endsWith(path, ".mtl"))
+        return texturesOfMtl(text);
     const auto kind = std::ranges::find_if(
         kMentions, [&](const Mention& mention) { return endsWith(path, mention.ending); });
     if (kind == kMentions.end())
-        return std::vector<std::string>();
-    std::vector<std::string> names = mentionedFiles(text, kind->mark, kind->ends);
-    if (endsWith(path, ".mtl"))
-        for (std::string& name : names) name = parseMapKd(name).name;
-    return names;
+        return imagesNamedIn(text);
+    return mentionedFiles(text, kind->mark, kind->ends);
 }
 
 /// Adds the files that the one at `path` names, as far as they exist, and what those name.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cstddef>
 #include <span>
@@ -56,6 +57,12 @@ void takeNumbers(std::string_view& text, glm::vec2& numbers) {
     }
 }
 
+/// In whatever case, as Assimp takes it.
+bool isMapKd(std::string_view keyword) {
+    return std::ranges::equal(keyword, std::string_view("map_kd"), {},
+                              [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+}
+
 struct Option {
     std::string_view name;
     int words;
@@ -105,6 +112,17 @@ ObjTexture parseMapKd(std::string_view arguments) {
     return texture;
 }
 
+std::vector<std::string> texturesOfMtl(std::string_view mtl) {
+    std::vector<std::string> names;
+    while (!mtl.empty()) {
+        std::string_view line = takeLine(mtl);
+        if (isMapKd(takeWord(line)))
+            names.push_back(parseMapKd(line).name);
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
 std::map<std::string, ObjTexture> objTexturesOf(std::string_view mtl) {
     std::map<std::string, ObjTexture> textures;
     std::string material;
@@ -113,9 +131,9 @@ std::map<std::string, ObjTexture> objTexturesOf(std::string_view mtl) {
         const std::string_view keyword = takeWord(line);
         if (keyword == "newmtl")
             material = line;
-        else if (keyword == "map_Kd" && line.starts_with('-'))
+        else if (isMapKd(keyword) && line.starts_with('-'))
             textures.insert_or_assign(material, parseMapKd(line));
-        else if (keyword == "map_Kd")
+        else if (isMapKd(keyword))
             textures.erase(material);
     }
     return textures;

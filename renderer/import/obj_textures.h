@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -11,8 +12,8 @@ struct aiScene;
 
 namespace eyrie::import {
 
-/// What `map_Kd` says of a material: name, and where a place of the source lies on it, at
-/// scale * place + offset, v upwards.
+/// What `map_Kd`, in whatever case, says of a material: name, and where a place of the source lies
+/// on it, at scale * place + offset, v upwards.
 struct ObjTexture {
     std::string name;
     glm::vec2 scale{1, 1};
@@ -24,6 +25,9 @@ struct ObjTexture {
 /// What follows `map_Kd`. Of options those that scale and shift (-s, -o) are taken, of one to
 /// three numbers each; others are passed over.
 ObjTexture parseMapKd(std::string_view arguments);
+
+/// The names of all textures of an .mtl file, sorted.
+std::vector<std::string> texturesOfMtl(std::string_view mtl);
 
 /// The textures with options of an .mtl file, by the names of their materials; the last of each.
 std::map<std::string, ObjTexture> objTexturesOf(std::string_view mtl);

@@ -23,6 +23,7 @@
 #include "renderer/import/duplicate_faces.h"
 #include "renderer/import/normals.h"
 #include "renderer/import/orient.h"
+#include "renderer/import/texture_files.h"
 #include "renderer/import/weld.h"
 #include "renderer/mesh/vertex_packing.h"
 
@@ -120,9 +121,9 @@ struct Packing {
     std::vector<TexturePlace> textures;  ///< by VertexKey::texture, where there are materials
 };
 
-/// Nearest to `part` images' sides; 0 where that is no number, and at most 16,384 sides away.
+/// Nearest to `part` images' sides; 0 where that is no number.
 std::int32_t textureSteps(float part) {
-    constexpr double kMost = 16384;
+    constexpr double kMost = kMostImageSides;
     return std::isfinite(part) ? static_cast<std::int32_t>(std::lround(
                                      std::clamp(double{part}, -kMost, kMost) * mesh::kTextureSteps))
                                : 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -25,6 +26,7 @@
 #include <stb/stb_image.h>
 
 #include "fabric/status.h"
+#include "renderer/import/mesh_reader.h"
 #include "renderer/import/reading_process.h"
 #include "renderer/import/sgi_image.h"
 #include "renderer/import/uri_name.h"
@@ -85,7 +87,8 @@ struct AlphaUse {
     bool isSoft = false;  ///< half see-through more than it is holes
 };
 
-AlphaUse alphaUseOf(const std::vector<fabric::Rgba>& texels) {
+/// By a guess, where the format does not say what alpha is for.
+AlphaUse guessedAlphaUseOf(const std::vector<fabric::Rgba>& texels) {
     std::size_t notOpaque = 0, between = 0;
     for (const fabric::Rgba& texel : texels) {
         notOpaque += texel.a < kOpaque ? 1 : 0;
@@ -107,20 +110,38 @@ public:
 private:
     absl::Status load(std::size_t texture);
     absl::StatusOr<mesh::Image> read(std::size_t texture) const;
-    bool usesAlpha(std::size_t texture) const;
+    AlphaUse alphaUseOf(std::size_t texture, const std::vector<fabric::Rgba>& texels);
     void settleAlpha(std::size_t texture, const AlphaUse& use);
 
     const TriangleMesh& mesh_;
     const std::string& path_;
     std::vector<std::int32_t> imageOf_;
+    std::size_t takenForOpaque_ = 0;
     TriangleMesh result_;  ///< materials, images and notes
 };
 
-bool Loading::usesAlpha(std::size_t texture) const {
-    return std::ranges::any_of(mesh_.materials, [&](const mesh::Material& material) {
-        return material.image == static_cast<std::int32_t>(texture) &&
-               (material.isSeeThrough() || (material.flags & kAlphaByImage) != 0);
-    });
+AlphaUse Loading::alphaUseOf(std::size_t texture, const std::vector<fabric::Rgba>& texels) {
+    bool isUsed = false, isStated = false;
+    for (const mesh::Material& material : mesh_.materials) {
+        const bool isAsked = (material.flags & kAlphaByImage) != 0;
+        if (material.image != static_cast<std::int32_t>(texture) ||
+            !(isAsked || material.isSeeThrough()))
+            continue;
+        isUsed = true;
+        isStated = isStated || !isAsked;
+    }
+    const auto isAny = [&texels](auto has) {
+        return std::ranges::any_of(texels, has, &fabric::Rgba::a);
+    };
+    if (isStated)
+        return {isAny([](std::uint8_t alpha) { return alpha < 255; }), false};
+    if (!isUsed)
+        return {};
+    if (!isAny([](std::uint8_t alpha) { return alpha >= kClear; })) {
+        ++takenForOpaque_;
+        return {};
+    }
+    return guessedAlphaUseOf(texels);
 }
 
 void Loading::settleAlpha(std::size_t texture, const AlphaUse& use) {
@@ -150,7 +171,7 @@ absl::Status Loading::load(std::size_t texture) {
     }
     mesh::ImageShape shape;
     ASSIGN_OR_RETURN(std::vector<fabric::Rgba> texels, decode(bytes, shape));
-    const AlphaUse use = usesAlpha(texture) ? alphaUseOf(texels) : AlphaUse();
+    const AlphaUse use = alphaUseOf(texture, texels);
     shape.flags = source.flags | (use.hasAlpha ? mesh::kHasAlpha : 0);
     settleAlpha(texture, use);
     imageOf_[texture] = static_cast<std::int32_t>(result_.images.size());
@@ -176,6 +197,11 @@ absl::StatusOr<TriangleMesh> Loading::run() {
         result_.notes.push_back(fmt::format(
             "{} of {} textures cannot be read, and their materials have their colour alone: {}",
             failed, mesh_.textures.size(), first));
+    if (takenForOpaque_ > 0)
+        result_.notes.push_back(
+            fmt::format("{} of {} textures have no opacity at all, and nobody would see them: they "
+                        "are taken for opaque",
+                        takenForOpaque_, mesh_.textures.size()));
     return std::move(result_);
 }
 
@@ -185,9 +211,13 @@ void replaceColours(TriangleMesh& mesh) {
         const mesh::Material& material = mesh.materials[mesh.materialOf[vertex]];
         return material.hasImage() && (material.flags & kReplacesColour) != 0;
     };
-    for (std::size_t i = 0; i < mesh.colours.size(); ++i)
-        if (isReplaced(i))
-            mesh.colours[i] = {255, 255, 255, mesh.colours[i].a};
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        if (!isReplaced(i))
+            continue;
+        if (mesh.colours.empty())
+            mesh.colours.assign(mesh.positions.size(), kPlainColour);
+        mesh.colours[i] = {255, 255, 255, mesh.colours[i].a};
+    }
     for (mesh::Material& material : mesh.materials)
         material.flags &= ~(kAlphaByImage | kReplacesColour);
 }
@@ -227,6 +257,22 @@ void mergeMaterials(TriangleMesh& mesh) {
     mesh.materials = std::move(merged);
     if (mesh.images.empty())
         mesh.textureCoordinates.clear();
+}
+
+void noteFarPlaces(TriangleMesh& mesh) {
+    const auto isFar = [&mesh](std::size_t vertex) {
+        const glm::vec2 place = mesh.textureCoordinates[vertex];
+        return mesh.materials[mesh.materialOf[vertex]].hasImage() &&
+               !(std::abs(place.x) <= kMostImageSides && std::abs(place.y) <= kMostImageSides);
+    };
+    std::size_t far = 0;
+    for (std::size_t i = 0; i < mesh.textureCoordinates.size(); ++i) far += isFar(i) ? 1 : 0;
+    if (far > 0)
+        mesh.notes.push_back(
+            fmt::format("texture coordinates of {} of {} vertices are no numbers or more than {} "
+                        "sides of the image away, and textures lie wrong there: take whole "
+                        "numbers off them",
+                        far, mesh.positions.size(), kMostImageSides));
 }
 
 /// The file that `name` means as it stands.
@@ -288,6 +334,7 @@ absl::Status loadTextures(TriangleMesh& mesh, const std::string& path,
     replaceColours(mesh);
     dropIdleBlending(mesh);
     mergeMaterials(mesh);
+    noteFarPlaces(mesh);
     return absl::OkStatus();
 }
 

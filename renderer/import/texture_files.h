@@ -10,6 +10,9 @@
 
 namespace eyrie::import {
 
+/// In either direction; texture coordinates that are farther away are cut off there.
+inline constexpr double kMostImageSides = 16384;
+
 /// Reads the images that `mesh` names, where a source at `path` would have them, into
 /// TriangleMesh::images, in a process of its own (reading_process.h): PNG, JPEG, TGA, BMP, GIF, PSD
 /// and what else stb_image knows, and SGI's, up to mesh::kMaxImageSide a side. Names may have
@@ -20,9 +23,10 @@ namespace eyrie::import {
 /// and the reason; its materials have their colour alone. Where a material of kReplacesColour has
 /// its image colours become white. Alpha is kept where a material uses it.
 /// A material of kAlphaByImage whose image has alpha is blended if more than half of the texels
-/// that are not opaque are not clear either, and has holes otherwise. Materials that are blended
+/// that are not opaque are not clear either, and has holes otherwise; it is opaque if all texels
+/// are clear, which notes say. Materials that are blended
 /// for nothing are opaque; the same materials are one; and where there is nothing but a plain one
-/// there is none. Errors: Cancelled.
+/// there is none. Notes say how many texture coordinates will be cut off. Errors: Cancelled.
 absl::Status loadTextures(TriangleMesh& mesh, const std::string& path,
                           const ImportControl& control);
 

@@ -10,7 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "renderer/import/assimp_reader.h"
+#include "renderer/import/mesh_reader.h"
 #include "renderer/import/obj_textures.h"
+#include "tests/renderer/import/tga_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
 namespace eyrie::import {
@@ -65,6 +67,49 @@ TEST(AssimpReader, TakesMaterialsAndImagesThatAreInTheFile) {
 std::string texturedGltf(std::string_view from, std::string_view to) {
     std::string text = kTexturedGltf;
     return text.replace(text.find(from), from.size(), to);
+}
+
+fabric::Rgba firstColourOf(const std::string& gltf) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.gltf"), gltf);
+    const auto mesh = readMesh(folder.file("m.gltf"));
+    EXPECT_TRUE(mesh.ok()) << mesh.status();
+    return mesh.ok() ? mesh->colours[mesh->triangles[0][0]] : fabric::Rgba{};
+}
+
+TEST(AssimpReader, TakesAGltfsColoursOfThreeNumbersForOpaque) {
+    EXPECT_EQ(firstColourOf(texturedGltf(R"("TEXCOORD_0":1})", R"("TEXCOORD_0":1,"COLOR_0":0})")),
+              (fabric::Rgba{0, 0, 0, 102}));
+}
+
+/// kTexturedGltf with another factor and an image of one texel beside it.
+absl::StatusOr<TriangleMesh> readWithTexel(std::string_view factor, fabric::Rgba texel) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.tga"), test::tgaOf(1, 1, {texel}));
+    std::string text = texturedGltf("[1,1,1,0.4]", factor);
+    const std::string_view image = "data:image/png;base64,QUJDRA==";
+    text.replace(text.find(image), image.size(), "m.tga");
+    test::writeFile(folder.file("m.gltf"), text);
+    return readMesh(folder.file("m.gltf"));
+}
+
+TEST(AssimpReader, KeepsAGltfsTexturesBlackWhereTheirFactorIs) {
+    const auto mesh = readWithTexel("[0,0,0,0.4]", {9, 8, 7, 255});
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_EQ(mesh->images.size(), 1U);
+    EXPECT_EQ(mesh->colours[mesh->triangles[0][0]], (fabric::Rgba{0, 0, 0, 102}));
+}
+
+TEST(AssimpReader, LeavesTheAlphaOfAGltfsImagesAsItIs) {
+    const auto mesh = readWithTexel("[1,1,1,1]", {9, 8, 7, 225});
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_EQ(mesh->images.size(), 1U);
+    EXPECT_TRUE(mesh->images[0].shape.hasAlpha());
+    const auto materialOf = [&](std::size_t triangle) {
+        return mesh->materials[mesh->materialOf[mesh->triangles[triangle][0]]];
+    };
+    EXPECT_TRUE(materialOf(0).isBlended());
+    EXPECT_EQ(materialOf(1).alphaCutoff, 0.25F);
 }
 
 /// Where the point at u = 1 or v = 1 of a texture comes to by a KHR_texture_transform, v downwards.
@@ -135,6 +180,7 @@ TEST(AssimpReader, ScalesAndShiftsTexturesOfAnObjAsItsMaterialsSay) {
     expect("map_Kd a wall.png", {1, 1}, {0, 0});
     expect("map_Kd -s 2 3 1 -o 0.25 0.5 0 a wall.png", {2.25F, 0.5F}, {0.25F, -2.5F});
     expect("map_Kd -s 2 3 a wall.png", {2, 1}, {0, -2});
+    expect("map_kd -s 2 3 a wall.png", {2, 1}, {0, -2});
     expect("map_Kd -o 0.25 -clamp off -mm 0 1 -t 1 1 1 a wall.png", {1.25F, 1}, {0.25F, 0});
 }
 

@@ -89,6 +89,25 @@ TEST(GltfExtensions, ThatMoveOrRepeatMeshesAreToldOfWhereTheyAreLeftOut) {
         ElementsAre(HasSubstr("CESIUM_RTC"), HasSubstr("EXT_mesh_gpu_instancing")));
 }
 
+TEST(GltfExtensions, OfTexturesAreToldOfWhereThereIsNoOtherImage) {
+    for (const std::string_view name :
+         {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds"}) {
+        const auto caveatsOf = [&](std::string_view otherwise) {
+            return gltfCaveats(bytesOf(fmt::format(
+                R"({{"extensionsUsed": ["{0}"], "nodes": [{{"name": "textures"}}],
+"textures": [{{"source": 1}}, {{"extensions": {{"{0}": {{"source": 0}}}}{1}}}]}})",
+                name, otherwise)));
+        };
+        EXPECT_THAT(caveatsOf(""), ElementsAre(testing::AllOf(HasSubstr("1 of 2 textures"),
+                                                              HasSubstr(std::string(name)))));
+        EXPECT_THAT(caveatsOf(R"(, "source": 1)"), IsEmpty());
+    }
+    for (const std::string_view textures : {"", R"(, "textures": 3)", R"(, "textures": [3])"})
+        EXPECT_THAT(gltfCaveats(bytesOf(
+                        fmt::format(R"({{"extensionsUsed": ["EXT_texture_webp"]{}}})", textures))),
+                    IsEmpty());
+}
+
 TEST(GltfExtensions, AreLookedAtBeforeAFileIsRead) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("m.gltf"), requiring(R"("EXT_unheard_of")"));

@@ -124,6 +124,37 @@ TEST(MeshReader, ReadsTexturesAndCountsThoseThatAreMissing) {
     EXPECT_EQ(colourOf(3), (fabric::Rgba{0, 255, 0, 255}));
 }
 
+TEST(MeshReader, SaysWhereTextureCoordinatesAreFartherThanCanBeKept) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.mtl"),
+                    "newmtl tiles\nmap_Kd tiles.tga\nnewmtl pane\nKd 0 0 1\n");
+    test::writeFile(folder.file("tiles.tga"), test::tgaOf(1, 1, {{9, 8, 7, 255}}));
+    const auto notesOf = [&](const std::string& place) {
+        test::writeFile(folder.file("m.obj"),
+                        "mtllib m.mtl\nv 5 0 0\nv 6 0 0\nv 5 1 0\nvt 0 0\nvt 1 0\nvt " + place +
+                            "\nusemtl tiles\nf 1/1 2/2 3/3\nusemtl pane\nf 1/1 3/3 2/2\n");
+        return readMesh(folder.file("m.obj"))->notes;
+    };
+    EXPECT_THAT(notesOf("-16383 16384"), testing::IsEmpty());
+    EXPECT_THAT(notesOf("0 -20000"), testing::ElementsAre(HasSubstr("1 of 6 vertices")));
+}
+
+/// As of images of 32 bits whose last eight mean nothing.
+TEST(MeshReader, TakesImagesOfWhichNothingShowsForOpaque) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    test::writeFile(folder.file("m.mtl"), "newmtl tiles\nmap_Kd a.tga\n");
+    std::string image = test::tgaOf(2, 1, {{9, 8, 7, 0}, {1, 2, 3, 0}});
+    image[17] = 0x20;
+    test::writeFile(folder.file("a.tga"), image);
+    const auto mesh = readMesh(folder.file("m.obj"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_EQ(mesh->images.size(), 1U);
+    EXPECT_FALSE(mesh->images[0].shape.hasAlpha());
+    EXPECT_EQ(mesh->materials[mesh->materialOf[0]], (mesh::Material{.image = 0}));
+    EXPECT_THAT(mesh->notes, testing::ElementsAre(HasSubstr("1 of 1 textures have no opacity")));
+}
+
 constexpr const char* kTexturedPly =
     "ply\nformat ascii 1.0\ncomment TextureFile <this>_A.png\ncomment TextureFile lost.png\n"
     "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
@@ -148,6 +179,21 @@ TEST(MeshReader, LoadsTheTexturesOfAPlyAndKeepsItsColoursWhereOneIsMissing) {
     EXPECT_EQ(mesh->colours[textured], (fabric::Rgba{255, 255, 255, 255}));
     EXPECT_EQ(mesh->materials[mesh->materialOf[lost]], mesh::Material());
     EXPECT_EQ(mesh->colours[lost], (fabric::Rgba{255, 0, 0, 255}));
+}
+
+TEST(MeshReader, ShowsATextureInFullWhereNothingElseHasAColour) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("w.tga"), test::tgaOf(1, 1, {{9, 8, 7, 255}}));
+    test::writeFile(folder.file("m.x3d"),
+                    R"(<?xml version="1.0"?><X3D profile="Interchange" version="3.3"><Scene><Shape>
+<Appearance><ImageTexture url='"w.tga"'/></Appearance>
+<IndexedFaceSet coordIndex="0 1 2 -1" texCoordIndex="0 1 2 -1">
+<Coordinate point="0 0 0 1 0 0 0 1 0"/><TextureCoordinate point="0 0 1 0 0 1"/>
+</IndexedFaceSet></Shape></Scene></X3D>)");
+    const auto mesh = readMesh(folder.file("m.x3d"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_THAT(mesh->colours, testing::Each(fabric::Rgba{255, 255, 255, 255}));
+    EXPECT_EQ(mesh->colours.size(), mesh->positions.size());
 }
 
 TEST(MeshReader, LoadsBothImagesOfATexturedPlyOfMeshLab) {
@@ -247,6 +293,10 @@ TEST(MeshSourceHash, IsThatOfALoneFileAndCountsItsCompany) {
     const std::uint64_t scaled = *meshSourceHash(paths);
     test::writeFile(folder.file("m.png"), "b");
     EXPECT_NE(scaled, *meshSourceHash(paths));
+    test::writeFile(folder.file("m.mtl"), "newmtl red\nmap_kd m.png\n");
+    const std::uint64_t lowerCase = *meshSourceHash(paths);
+    test::writeFile(folder.file("m.png"), "c");
+    EXPECT_NE(lowerCase, *meshSourceHash(paths));
 }
 
 TEST(MeshSourceHash, CountsTexturesOfPly) {
@@ -269,6 +319,32 @@ TEST(MeshSourceHash, CountsBuffersOfGltf) {
     const std::uint64_t before = *meshSourceHash(paths);
     test::writeFile(folder.file("m.bin"), "b");
     EXPECT_NE(before, *meshSourceHash(paths));
+}
+
+TEST(MeshSourceHash, CountsTexturesThatAreNamedAnyhow) {
+    const test::TemporaryFolder folder;
+    const auto expectCounted = [&](const std::string& name, std::string_view text) {
+        SCOPED_TRACE(text);
+        const std::vector<std::string> paths = {folder.file(name)};
+        test::writeFile(paths[0], std::string(text));
+        test::writeFile(folder.file("a wall.PNG"), "a");
+        const std::uint64_t before = *meshSourceHash(paths);
+        test::writeFile(folder.file("a wall.PNG"), "b");
+        EXPECT_NE(before, *meshSourceHash(paths));
+    };
+    using namespace std::string_view_literals;
+    expectCounted("m.dae", "<init_from>./maps/a%20wall.png</init_from>");
+    expectCounted("m.x3d", R"(<ImageTexture url='"a wall.png" "http://b.c/wall.png"'/>)");
+    expectCounted("m.x3d", R"(<ImageTexture url="&quot;a wall.png&quot;"/>)");
+    expectCounted("m.fbx", R"(RelativeFilename: "..\maps\a wall.png")");
+    expectCounted("m.fbx", "\x10RelativeFilenameS\x0A\0\0\0a wall.PNG\0\0"sv);
+    expectCounted("m.3ds", "\x00\xA3\x11\0\0\0a wall.png\0\x51\xA3"sv);
+    expectCounted("m.glb", R"({"images":[{"uri":"a%20wall.png"}]})");
+    const std::vector<std::string> paths = {folder.file("m.dae")};
+    for (const std::string_view text : {"", ".", ".png", ">.png", "a wall.pn", "a wall.pngs"}) {
+        test::writeFile(paths[0], std::string(text));
+        EXPECT_EQ(*meshSourceHash(paths), *mesh::contentHash(paths[0])) << text;
+    }
 }
 
 TEST(FindTexture, TakesNamesAsTheyStandBeforeItTakesThemForUris) {

@@ -195,6 +195,20 @@ TEST(TexturesOfFbx, AreTurnedByDegrees) {
     expectPlaces(read("m.fbx", fmt::format(kFbx, 180)), {glm::vec2{0, 1}, {-1, 1}, {0, 2}});
 }
 
+/// As Maya and 3ds Max write their physical materials.
+TEST(TexturesOfFbx, MayBeOfABaseColour) {
+    for (const std::string_view name :
+         {"Maya|baseColor", "Maya|TEX_color_map", "3dsMax|Parameters|base_color_map"}) {
+        SCOPED_TRACE(name);
+        std::string text = fmt::format(kFbx, 180);
+        const std::string_view diffuse = "DiffuseColor";
+        text.replace(text.find(diffuse), diffuse.size(), name);
+        const TriangleMesh mesh = read("m.fbx", text);
+        expectPlaces(mesh, {glm::vec2{0, 1}, {-1, 1}, {0, 2}});
+        EXPECT_THAT(mesh.notes, ElementsAre(HasSubstr("brought to metres")));
+    }
+}
+
 /// Of two sets of coordinates, numbered as given, the second has u and v exchanged.
 std::string collada(std::string_view texcoord, std::string_view binding, int first, int second) {
     return fmt::format(
