@@ -3,11 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <csignal>
-#include <cstdlib>
 #include <span>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -16,6 +12,7 @@
 #include "cli/import_notes.h"
 #include "cli/several_sources.h"
 #include "cli/source_record.h"
+#include "fabric/partial_file.h"
 #include "fabric/status.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_reader.h"
@@ -60,22 +57,6 @@ absl::StatusOr<std::string> importName(const std::vector<std::string>& sources,
         hash = hash * 37 + part;
     }
     return fmt::format("{:016x}-{}.eyt", hash, kTerrainImporterVersion);
-}
-
-/// Removes what imports that were killed have left: mesh::OutputFile and the terrain writer name
-/// unfinished files NAME.partial-PID.
-void removeLeftovers(const fs::path& folder) {
-    constexpr std::string_view kMark = ".partial-";
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-        const std::string name = entry.path().filename().string();
-        const std::size_t mark = name.rfind(kMark);
-        if (mark == std::string::npos)
-            continue;
-        const pid_t maker = std::atoi(name.c_str() + mark + kMark.size());
-        if (maker > 0 && kill(maker, 0) != 0 && errno == ESRCH)
-            fs::remove(entry.path(), error);
-    }
 }
 
 /// Only .eyt and .eym are read from where they lie.
@@ -188,7 +169,7 @@ absl::StatusOr<std::string> DataCache::imported(const std::vector<std::string>& 
             fmt::format("{}: cannot create this folder for imports ({}); name another with "
                         "--cache FOLDER",
                         folder_.string(), error.message()));
-    removeLeftovers(folder_);
+    fabric::removeAllAbandoned(folder_);
     RETURN_IF_ERROR(import(sources, target, kind, imagery));
     RETURN_IF_ERROR(recordSources(target, sources));
     return target;
