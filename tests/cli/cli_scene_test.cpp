@@ -136,6 +136,21 @@ TEST_F(SceneFiles, ADamagedImportIsMadeAgain) {
     EXPECT_TRUE(mesh::EymFile::open(*data).ok());
 }
 
+/// As where a source was another one for as long as it was imported.
+TEST_F(SceneFiles, AnImportOfOtherContentThanItsNameSaysIsMadeAgain) {
+    const std::string ball = writeBall(folder_);
+    const std::string larger = folder_.path("larger.ply");
+    ASSERT_TRUE(import::writePly(import::synthesizeMesh(4000, 1), larger).ok());
+    const auto small = cache_.dataFor(ball, fabric::ObjectKind::Mesh);
+    const auto large = cache_.dataFor(larger, fabric::ObjectKind::Mesh);
+    ASSERT_TRUE(small.ok() && large.ok());
+    const std::uint64_t triangles = mesh::EymFile::open(*small)->triangleCount();
+    fs::copy_file(*large, *small, fs::copy_options::overwrite_existing);
+    const auto again = cache_.dataFor(ball, fabric::ObjectKind::Mesh);
+    ASSERT_TRUE(again.ok()) << again.status();
+    EXPECT_EQ(mesh::EymFile::open(*again)->triangleCount(), triangles);
+}
+
 TEST_F(SceneFiles, WhatAKilledImportLeftIsClearedAway) {
     fs::create_directory(folder_.path("imports"));
     const std::string left = folder_.write("imports/a.eym.partial-0123456789abcdef", "half");
