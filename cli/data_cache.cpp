@@ -3,11 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <csignal>
-#include <cstdlib>
 #include <span>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -16,6 +12,7 @@
 #include "cli/import_notes.h"
 #include "cli/several_sources.h"
 #include "cli/source_record.h"
+#include "fabric/partial_file.h"
 #include "fabric/status.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_reader.h"
@@ -41,6 +38,10 @@ std::string lowerCaseEnding(const std::string& path) {
     return ending;
 }
 
+std::string meshName(std::uint64_t sourceHash) {
+    return fmt::format("{:016x}-{}.eym", sourceHash, kMeshImporterVersion);
+}
+
 /// Name of the import of `sources`: what they hold, in their order, and what made it.
 absl::StatusOr<std::string> importName(const std::vector<std::string>& sources,
                                        fabric::ObjectKind kind,
@@ -48,7 +49,7 @@ absl::StatusOr<std::string> importName(const std::vector<std::string>& sources,
                                        const std::stop_token& stop) {
     if (kind == fabric::ObjectKind::Mesh) {
         ASSIGN_OR_RETURN(const std::uint64_t hash, import::meshSourceHash(sources));
-        return fmt::format("{:016x}-{}.eym", hash, kMeshImporterVersion);
+        return meshName(hash);
     }
     std::uint64_t hash = 0;
     for (const std::string& source : sources) {
@@ -60,22 +61,6 @@ absl::StatusOr<std::string> importName(const std::vector<std::string>& sources,
         hash = hash * 37 + part;
     }
     return fmt::format("{:016x}-{}.eyt", hash, kTerrainImporterVersion);
-}
-
-/// Removes what imports that were killed have left: mesh::OutputFile and the terrain writer name
-/// unfinished files NAME.partial-PID.
-void removeLeftovers(const fs::path& folder) {
-    constexpr std::string_view kMark = ".partial-";
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-        const std::string name = entry.path().filename().string();
-        const std::size_t mark = name.rfind(kMark);
-        if (mark == std::string::npos)
-            continue;
-        const pid_t maker = std::atoi(name.c_str() + mark + kMark.size());
-        if (maker > 0 && kill(maker, 0) != 0 && errno == ESRCH)
-            fs::remove(entry.path(), error);
-    }
 }
 
 /// Only .eyt and .eym are read from where they lie.
@@ -96,9 +81,13 @@ absl::Status withRemedy(const absl::Status& status) {
         "{} (`eyrie import mesh --memory` sets how much)", std::string(status.message())));
 }
 
-bool opens(const std::string& path, fabric::ObjectKind kind) {
-    return kind == fabric::ObjectKind::Mesh ? mesh::EymFile::open(path).ok()
-                                            : terrain::EytFile::open(path).ok();
+/// Whether the file at `path`, which importName has named, is what its name says, as far as it can
+/// tell.
+bool isImport(const fs::path& path, fabric::ObjectKind kind) {
+    if (kind == fabric::ObjectKind::Terrain)
+        return terrain::EytFile::open(path.string()).ok();
+    const auto file = mesh::EymFile::open(path.string());
+    return file.ok() && path.filename().string() == meshName(file->sourceHash());
 }
 
 }  // namespace
@@ -177,7 +166,7 @@ absl::StatusOr<std::string> DataCache::imported(const std::vector<std::string>& 
     ASSIGN_OR_RETURN(const std::string name, importName(sources, kind, imagery, stop_));
     const std::string target = (folder_ / name).string();
     std::error_code error;
-    if (fs::exists(target, error) && opens(target, kind)) {
+    if (fs::exists(target, error) && isImport(target, kind)) {
         // Of the same bytes, perhaps from elsewhere. A cache that others keep may not be written.
         recordSources(target, sources).IgnoreError();
         return target;
@@ -188,8 +177,14 @@ absl::StatusOr<std::string> DataCache::imported(const std::vector<std::string>& 
             fmt::format("{}: cannot create this folder for imports ({}); name another with "
                         "--cache FOLDER",
                         folder_.string(), error.message()));
-    removeLeftovers(folder_);
+    fabric::removeAllAbandoned(folder_);
     RETURN_IF_ERROR(import(sources, target, kind, imagery));
+    if (const auto now = importName(sources, kind, imagery, stop_); !now.ok() || *now != name) {
+        fs::remove(target, error);
+        RETURN_IF_ERROR(now.status());
+        return absl::UnavailableError(
+            fmt::format("{}: changed while it was imported; run it again", titleOf(sources)));
+    }
     RETURN_IF_ERROR(recordSources(target, sources));
     return target;
 }

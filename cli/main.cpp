@@ -15,6 +15,7 @@
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "cli/log.h"
+#include "cli/lost_bytes.h"
 #include "cli/options/common_options.h"
 #include "cli/options/completed_line.h"
 #include "cli/options/options_file.h"
@@ -139,6 +140,7 @@ int main(int argc, char** argv) {
     // A file larger than is allowed (ulimit -f, systemd's LimitFSIZE) is an error like a full disk,
     // and ends neither a server nor leaves half of a file behind.
     std::signal(SIGXFSZ, SIG_IGN);
+    eyrie::cli::sayWhereBytesAreLost();
     try {
         return static_cast<int>(runCommandLine(argc, argv));
     } catch (const std::exception& error) {  // such as too little memory

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -15,6 +17,7 @@
 #include "cli/log.h"
 #include "cli/options/whole_number.h"
 #include "cli/output_reader.h"
+#include "cli/own_places.h"
 #include "cli/progress_bar.h"
 #include "cli/stop_signal.h"
 #include "fabric/status.h"
@@ -86,6 +89,10 @@ absl::Status synthTerrain(const Options& options) {
     return absl::OkStatus();
 }
 
+bool isFinite(const fabric::Vec3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
 absl::StatusOr<import::TriangleMesh> makeMesh(const Options& options,
                                               const import::ImportControl& control) {
     if (options.from.empty())
@@ -94,8 +101,14 @@ absl::StatusOr<import::TriangleMesh> makeMesh(const Options& options,
     RETURN_IF_ERROR(control.check());
     ASSIGN_OR_RETURN(import::TriangleMesh mesh,
                      import::subdivide(std::move(source), options.subdivisions));
-    if (options.displacementMetres > 0)
-        import::displace(mesh, options.displacementMetres, options.seed);
+    if (options.displacementMetres == 0)
+        return mesh;
+    import::displace(mesh, options.displacementMetres, options.seed);
+    if (!std::ranges::all_of(mesh.positions, isFinite))
+        return absl::InvalidArgumentError(
+            fmt::format("--displace is {} m: what comes of {} is larger than coordinates of 32 "
+                        "bits can say; ask for less",
+                        options.displacementMetres, options.from));
     return mesh;
 }
 
@@ -113,6 +126,8 @@ absl::Status synthMesh(const Options& options) {
     const std::string ending = std::filesystem::path(options.out).extension().string();
     if (ending != ".ply" && ending != ".eym")
         return wrongEnding(options.out, ".ply (a source) or .eym (imported)");
+    RETURN_IF_ERROR(checkOwnPlaces(std::array{NamedFile{"-o", options.out}},
+                                   std::array{NamedFile{"--from", options.from}}));
     RETURN_IF_ERROR(mesh::OutputFile::check(options.out));
     ASSIGN_OR_RETURN(const OutputReader reader, OutputReader::await(options.out, stop.token()));
     ProgressBar bar(options.out, static_cast<double>(options.size) / 1e6, "M triangles",

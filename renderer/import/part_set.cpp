@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "fabric/partial_file.h"
 #include "fabric/status.h"
 #include "renderer/import/file_hash.h"
 #include "renderer/import/terrain_choices.h"
@@ -169,8 +170,8 @@ void PartSet::remove() {
         const std::string scratch = scratchPath(part, "");  // of a run that was killed
         for (const std::string& path : {part, facts, scratch, scratch + ".journal"})
             unlink(path.c_str());
-        removeAbandoned(part);
-        removeAbandoned(facts);
+        fabric::removeAbandoned(part);
+        fabric::removeAbandoned(facts);
     }
     removeNotedHashes(partsFolder(out_));
     rmdir(partsFolder(out_).c_str());  // unless there is something else in it

@@ -3,18 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <csignal>
-#include <cstdlib>
-#include <filesystem>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include "fabric/partial_file.h"
 #include "fabric/status.h"
 #include "renderer/import/dem_source.h"
 #include "renderer/import/elevation_reading.h"
@@ -76,23 +72,6 @@ absl::Status explained(const absl::Status& error, const std::vector<std::string>
     return absl::Status(error.code(), message);
 }
 
-/// Removes what killed imports into `out` have left that do not go on: EytWriter's unfinished
-/// files.
-void removeLeftovers(const std::string& out) {
-    namespace fs = std::filesystem;
-    const fs::path whole = fs::absolute(out);
-    const std::string mark = whole.filename().string() + ".partial-";
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(whole.parent_path(), error)) {
-        const std::string name = entry.path().filename().string();
-        if (!name.starts_with(mark))
-            continue;
-        const pid_t maker = std::atoi(name.c_str() + mark.size());
-        if (maker > 0 && kill(maker, 0) != 0 && errno == ESRCH)
-            fs::remove(entry.path(), error);
-    }
-}
-
 /// One import: what it holds, and its stages.
 class TerrainJob {
 public:
@@ -121,7 +100,7 @@ public:
     }
 
     absl::StatusOr<TerrainImportReport> run() {
-        removeLeftovers(out_);
+        fabric::removeAbandoned(out_);
         ASSIGN_OR_RETURN(terrain::EytWriter writer, scratch_.fitsInMemory()
                                                         ? terrain::EytWriter::create(out_)
                                                         : terrain::EytWriter::resume(out_));

@@ -12,13 +12,11 @@
 namespace eyrie::import {
 
 /// A file that appears under its name whole or not at all, also where several processes on several
-/// machines write it at once: each has a file of its own beside it, `PATH.partial-` and a random
-/// number, which is locked while it lives, and the last to commit wins. Without commit() that file
-/// is removed. One thread at a time.
+/// machines write it at once: each has a file of its own beside it, see fabric::createPartial, and
+/// the last to commit wins. Without commit() that file is removed. One thread at a time.
 class WholeFile {
 public:
-    /// Removes what killed writers of the same path have left. Errors: NotFound (no such folder),
-    /// PermissionDenied, Unavailable.
+    /// Errors: those of fabric::createPartial.
     static absl::StatusOr<WholeFile> create(const std::string& path);
 
     WholeFile(WholeFile&& other) noexcept;
@@ -41,8 +39,5 @@ private:
     int fd_;
     std::uint64_t size_ = 0;
 };
-
-/// Removes files beside `path` that killed writers of it have left.
-void removeAbandoned(const std::string& path);
 
 }  // namespace eyrie::import

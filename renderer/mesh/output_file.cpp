@@ -17,6 +17,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "fabric/partial_file.h"
 #include "fabric/replaceable.h"
 #include "fabric/status.h"
 
@@ -65,12 +66,8 @@ absl::StatusOr<OutputFile> OutputFile::create(const std::string& path, std::stop
         return file;
     }
     RETURN_IF_ERROR(fabric::checkReplaceable(path));
-    std::string partial = fmt::format("{}.partial-{}", path, ::getpid());
-    const int fd =
-        ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (fd < 0)
-        return fabric::writeError(path, "cannot create it", errno);
-    return OutputFile(path, std::move(partial), fd);
+    ASSIGN_OR_RETURN(fabric::PartialFile partial, fabric::createPartial(path));
+    return OutputFile(path, std::move(partial.path), partial.fd);
 }
 
 absl::Status OutputFile::check(const std::string& path) {
@@ -93,9 +90,9 @@ absl::StatusOr<OutputFile> OutputFile::createUnnamed(const std::string& path) {
 OutputFile::~OutputFile() {
     if (fd_ < 0)
         return;
-    ::close(fd_);
     if (!partialPath_.empty())
         ::unlink(partialPath_.c_str());
+    ::close(fd_);
 }
 
 /// Until a pipe takes PIPE_BUF bytes without waiting. Stop signals are blocked, so that nothing

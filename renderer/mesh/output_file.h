@@ -13,10 +13,10 @@ namespace eyrie::mesh {
 
 /// A file that appears under its name only when it is complete.
 ///
-/// Bytes go to `PATH.partial-<process id>` beside it; commit() flushes that to the disk and renames
-/// it. Without a successful commit the partial file is removed. What is no file (a device, a pipe)
-/// and the process's own output (`/dev/stdout`) are written as bytes come: nothing takes their
-/// place.
+/// Bytes go to a file of its own beside it, see fabric::createPartial; commit() flushes that to the
+/// disk and renames it. Without a successful commit the partial file is removed. What is no file (a
+/// device, a pipe) and the process's own output (`/dev/stdout`) are written as bytes come: nothing
+/// takes their place.
 class OutputFile {
 public:
     /// Once `stop` asks for it, nothing waits any more for room in a pipe that is not read.

@@ -14,6 +14,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include "fabric/partial_file.h"
 #include "fabric/replaceable.h"
 #include "fabric/status.h"
 #include "renderer/terrain/eyt_layout.h"
@@ -156,11 +157,8 @@ EytWriter::~EytWriter() {
 
 absl::StatusOr<EytWriter> EytWriter::create(const std::string& path) {
     RETURN_IF_ERROR(fabric::checkReplaceable(path));
-    std::string partialPath = fmt::format("{}.partial-{}", path, getpid());
-    const int fd = open(partialPath.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-    if (fd < 0)
-        return fabric::writeError(path, "cannot be written", errno);
-    return EytWriter(path, std::move(partialPath), fd);
+    ASSIGN_OR_RETURN(fabric::PartialFile partial, fabric::createPartial(path));
+    return EytWriter(path, std::move(partial.path), partial.fd);
 }
 
 absl::StatusOr<EytWriter> EytWriter::resume(const std::string& path) {

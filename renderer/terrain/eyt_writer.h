@@ -43,9 +43,9 @@ private:
 /// beside it, which has no header before commit().
 class EytWriter {
 public:
-    /// Into `PATH.partial-<process id>`, which goes with the writer unless that commits.
-    /// Errors: InvalidArgument (a folder, a pipe or a device has this name), NotFound (no such
-    /// folder), PermissionDenied, Unavailable.
+    /// Into a file of its own, see fabric::createPartial, which goes with the writer unless that
+    /// commits. Errors: InvalidArgument (a folder, a pipe or a device has this name), NotFound (no
+    /// such folder), PermissionDenied, Unavailable.
     static absl::StatusOr<EytWriter> create(const std::string& path);
 
     /// Into `PATH.partial`, where an earlier writer may have left pages that takeWritten() takes.

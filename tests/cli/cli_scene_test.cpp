@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include "cli/data_cache.h"
@@ -134,13 +136,38 @@ TEST_F(SceneFiles, ADamagedImportIsMadeAgain) {
     EXPECT_TRUE(mesh::EymFile::open(*data).ok());
 }
 
+/// As where a source was another one for as long as it was imported.
+TEST_F(SceneFiles, AnImportOfOtherContentThanItsNameSaysIsMadeAgain) {
+    const std::string ball = writeBall(folder_);
+    const std::string larger = folder_.path("larger.ply");
+    ASSERT_TRUE(import::writePly(import::synthesizeMesh(4000, 1), larger).ok());
+    const auto small = cache_.dataFor(ball, fabric::ObjectKind::Mesh);
+    const auto large = cache_.dataFor(larger, fabric::ObjectKind::Mesh);
+    ASSERT_TRUE(small.ok() && large.ok());
+    const std::uint64_t triangles = mesh::EymFile::open(*small)->triangleCount();
+    fs::copy_file(*large, *small, fs::copy_options::overwrite_existing);
+    const auto again = cache_.dataFor(ball, fabric::ObjectKind::Mesh);
+    ASSERT_TRUE(again.ok()) << again.status();
+    EXPECT_EQ(mesh::EymFile::open(*again)->triangleCount(), triangles);
+}
+
 TEST_F(SceneFiles, WhatAKilledImportLeftIsClearedAway) {
     fs::create_directory(folder_.path("imports"));
-    const int nobody = 1 << 30;  // beyond every process id
-    folder_.write(fmt::format("imports/a.eym.partial-{}", nobody), "half");
-    folder_.write(fmt::format("imports/b.eym.partial-{}", getpid()), "being written");
+    const std::string left = folder_.write("imports/a.eym.partial-0123456789abcdef", "half");
     ASSERT_TRUE(cache_.dataFor(writeBall(folder_), fabric::ObjectKind::Mesh).ok());
-    EXPECT_EQ(importsKept(), 2U) << "the import, and the one being written";
+    EXPECT_FALSE(fs::exists(left));
+    EXPECT_EQ(importsKept(), 1U);
+}
+
+/// As on another machine, or in another container, where process ids are others.
+TEST_F(SceneFiles, WhatALivingImportWritesStaysThoughNoProcessHereIsKnownForIt) {
+    fs::create_directory(folder_.path("imports"));
+    const std::string written = folder_.write("imports/b.eym.partial-0000000040000000", "half");
+    const int fd = open(written.c_str(), O_RDWR | O_CLOEXEC);
+    ASSERT_EQ(flock(fd, LOCK_EX | LOCK_NB), 0);
+    ASSERT_TRUE(cache_.dataFor(writeBall(folder_), fabric::ObjectKind::Mesh).ok());
+    EXPECT_TRUE(fs::exists(written));
+    close(fd);
 }
 
 TEST_F(SceneFiles, ASourceThatCannotBeImportedLeavesNothingInTheCache) {

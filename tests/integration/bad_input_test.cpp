@@ -330,10 +330,12 @@ TEST_F(BadInput, UnknownCommandsAndOptionsAreRefused) {
                       {"--seed", seed, "whole number"});
     expectRefused({"serve", good("ball.eym"), "--max-scene-triangles", "-1"},
                   {"--max-scene-triangles", "whole number"});
-    for (const char* metres : {"nan", "inf", "-1"})
+    for (const char* metres : {"nan", "inf", "-1", "1e300"})
         expectRefused({"synth", "mesh", "--from", good_->path("ball.ply"), "--displace", metres,
                        "-o", bad("out.ply")},
                       {"--displace"});
+    expectRefused({"synth", "mesh", "--from", good("ball.ply"), "-o", good("ball.ply")},
+                  {"-o", "--from"});
 }
 
 TEST_F(BadInput, OutputIntoAFolderThatIsMissingIsRefused) {

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fabric/partial_file.h"
 #include "tests/renderer/import/file_size_limit.h"
 #include "tests/renderer/import/terrain_fixture.h"
 
@@ -61,7 +62,7 @@ TEST(WholeFile, RemovesWhatAKilledWriterLeftAndNothingElse) {
     auto living = WholeFile::create(folder.path("a"));
     ASSERT_TRUE(living.ok());
     EXPECT_FALSE(std::filesystem::exists(folder.path("a.partial-0123456789abcdef")));
-    removeAbandoned(folder.path("a"));
+    fabric::removeAbandoned(folder.path("a"));
     EXPECT_TRUE(living->commit().ok());
     EXPECT_TRUE(std::filesystem::exists(folder.path("b.partial-0123456789abcdef")));
 }

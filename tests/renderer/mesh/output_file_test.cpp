@@ -161,13 +161,35 @@ TEST(OutputFile, GoesOnWhereStandardOutputIsThoughThatIsAFile) {
     EXPECT_TRUE(std::filesystem::is_symlink(folder.file("stdout")));
 }
 
-TEST(OutputFile, WritesNothingThroughALinkOfItsPartialFilesName) {
+TEST(OutputFile, TouchesNothingThroughALinkOfAPartialFilesName) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("else"), "precious");
     std::filesystem::create_symlink(folder.file("else"),
-                                    folder.file("out.partial-" + std::to_string(::getpid())));
-    EXPECT_FALSE(OutputFile::create(folder.file("out")).ok());
+                                    folder.file("out.partial-0123456789abcdef"));
+    auto out = OutputFile::create(folder.file("out"));
+    ASSERT_TRUE(out.ok() && out->write(bytesOf("new")).ok() && out->commit().ok());
     EXPECT_EQ(test::readFile(folder.file("else")), "precious");
+}
+
+TEST(OutputFile, HasItsOwnPartialFileWhereAnotherWritesTheSame) {
+    const test::TemporaryFolder folder;
+    auto first = OutputFile::create(folder.file("out"));
+    auto second = OutputFile::create(folder.file("out"));
+    ASSERT_TRUE(first.ok() && second.ok());
+    ASSERT_TRUE(first->write(bytesOf("first")).ok() && second->write(bytesOf("second")).ok());
+    ASSERT_TRUE(first->commit().ok());
+    EXPECT_EQ(test::readFile(folder.file("out")), "first");
+    ASSERT_TRUE(second->commit().ok());
+    EXPECT_EQ(test::readFile(folder.file("out")), "second");
+}
+
+TEST(OutputFile, RemovesWhatAKilledWriterOfTheSameLeft) {
+    const test::TemporaryFolder folder;
+    for (const char* name : {"out.partial-0123456789abcdef", "other.partial-0123456789abcdef"})
+        test::writeFile(folder.file(name), "half");
+    ASSERT_TRUE(OutputFile::create(folder.file("out")).ok());
+    EXPECT_FALSE(std::filesystem::exists(folder.file("out.partial-0123456789abcdef")));
+    EXPECT_TRUE(std::filesystem::exists(folder.file("other.partial-0123456789abcdef")));
 }
 
 TEST(MappedFile, RefusesWhatIsNoFileWithoutWaiting) {

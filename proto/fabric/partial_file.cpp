@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fabric/partial_file.h"
+
+#include <cerrno>
+#include <cstdint>
+#include <random>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "fabric/status.h"
+
+namespace eyrie::fabric {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMark = ".partial-";
+constexpr std::size_t kDigits = 16;
+
+/// Takes the lock that a living writer holds.
+bool lock(int fd) {
+    struct stat status {};
+    return flock(fd, LOCK_EX | LOCK_NB) == 0 && fstat(fd, &status) == 0 && status.st_nlink > 0;
+}
+
+/// Of which file a partial one of this name is; empty where it is none.
+std::string_view wholeName(std::string_view name) {
+    const std::size_t mark = name.rfind(kMark);
+    if (mark == std::string_view::npos)
+        return {};
+    const std::string_view digits = name.substr(mark + kMark.size());
+    if (digits.size() != kDigits ||
+        digits.find_first_not_of("0123456789abcdef") != std::string_view::npos)
+        return {};
+    return name.substr(0, mark);
+}
+
+void removeIfAbandoned(const fs::path& partial) {
+    const int fd = open(partial.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+    if (fd < 0)
+        return;
+    if (lock(fd))
+        unlink(partial.c_str());
+    close(fd);
+}
+
+/// `whole`: of which file; empty: of any.
+void removeAbandonedIn(const fs::path& folder, std::string_view whole) {
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        const std::string_view own = wholeName(name);
+        if (!own.empty() && (whole.empty() || own == whole))
+            removeIfAbandoned(entry->path());
+    }
+}
+
+}  // namespace
+
+/// Between its making and its lock another writer may take a file for abandoned and remove it: then
+/// one of another name is made.
+absl::StatusOr<PartialFile> createPartial(const std::string& path) {
+    constexpr int kTries = 16;
+    removeAbandoned(path);
+    std::random_device random;
+    for (int i = 0; i < kTries; ++i) {
+        const std::uint64_t number = std::uint64_t{random()} << 32 | random();
+        std::string partial = fmt::format("{}{}{:0{}x}", path, kMark, number, kDigits);
+        const int fd = open(partial.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd < 0)
+            return writeError(path, "cannot create it", errno);
+        errno = 0;
+        // Where a file system has no locks, nobody can take it for abandoned either.
+        if (lock(fd) || errno == ENOLCK || errno == EOPNOTSUPP)
+            return PartialFile{std::move(partial), fd};
+        unlink(partial.c_str());
+        close(fd);
+    }
+    return absl::UnavailableError(fmt::format(
+        "{}: other processes take its partial files for abandoned; run the same command "
+        "again",
+        path));
+}
+
+void removeAbandoned(const std::string& path) {
+    const fs::path whole = fs::absolute(path);
+    removeAbandonedIn(whole.parent_path(), whole.filename().string());
+}
+
+void removeAllAbandoned(const fs::path& folder) { removeAbandonedIn(folder, {}); }
+
+}  // namespace eyrie::fabric
