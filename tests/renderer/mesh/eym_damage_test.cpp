@@ -2,6 +2,7 @@
 // Whatever happens to the bytes of an .eym file, a reader ends in a status or in spans that may be
 // read. Run under the address sanitizer this also shows that nothing is read outside.
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -314,6 +315,24 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
         const absl::Status status = readAll(folder.file("m.eym"));
         EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss) << c.name;
         EXPECT_NE(status.message().find("found"), std::string::npos) << c.name << ": " << status;
+    }
+}
+
+/// A few blocks on disk may claim a file of gigabytes.
+TEST(EymDamage, APageLargerThanItsNodeCanHaveIsRefusedBeforeItIsRead) {
+    const test::TemporaryFolder folder;
+    const std::string& bytes = smallFile();
+    constexpr std::uint64_t kLong = 1U << 30;
+    for (const auto& damage : {+[](Node& node) { node.pageBytes = kLong; },
+                               +[](Node& node) { node.exactBytes = kLong; }}) {
+        Tables tables(bytes);
+        tables.header.fileBytes += kLong;
+        damage(tables.nodes.back());
+        test::writeFile(folder.file("m.eym"), tables.sealedInto(bytes));
+        std::filesystem::resize_file(folder.file("m.eym"), tables.header.fileBytes);
+        const absl::Status refused = EymFile::open(folder.file("m.eym")).status();
+        EXPECT_EQ(refused.code(), absl::StatusCode::kDataLoss);
+        EXPECT_NE(refused.message().find("found 1073741824 bytes"), std::string::npos) << refused;
     }
 }
 
