@@ -336,6 +336,24 @@ TEST(EymDamage, APageLargerThanItsNodeCanHaveIsRefusedBeforeItIsRead) {
     }
 }
 
+TEST(EymDamage, TablesLargerThanTheMemoryForThemAreNotReadFirst) {
+    const test::TemporaryFolder folder;
+    const std::string& bytes = smallFile();
+    Tables tables(bytes);
+    test::writeFile(folder.file("m.eym"), bytes);
+    const std::uint64_t needed = EymFile::open(folder.file("m.eym"))->tableMemoryBytes();
+    EXPECT_GE(needed, tables.endOfTables() - sizeof(EymHeader));
+    EXPECT_TRUE(EymFile::open(folder.file("m.eym"), {}, needed).ok());
+    tables.header.nodeCount = 1U << 31;
+    tables.header.fileBytes = std::uint64_t{300} << 30;
+    test::writeFile(folder.file("m.eym"), tables.sealedInto(bytes));
+    std::filesystem::resize_file(folder.file("m.eym"), tables.header.fileBytes);
+    const absl::Status refused =
+        EymFile::open(folder.file("m.eym"), {}, std::uint64_t{1} << 30).status();
+    EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted) << refused;
+    EXPECT_NE(refused.message().find("its tables take"), std::string::npos) << refused;
+}
+
 TEST(EymDamage, AnEarlierVersionIsRefusedForItsBounds) {
     const test::TemporaryFolder folder;
     const std::string& bytes = smallFile();
