@@ -13,37 +13,15 @@
 #include <rapidcheck/gtest.h>
 
 #include "renderer/mesh/eym_format.h"
-#include "renderer/mesh/eym_writer.h"
-#include "renderer/mesh/kd_tree.h"
-#include "tests/renderer/mesh/sample_meshes.h"
+#include "tests/renderer/mesh/sample_eym.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
 namespace eyrie::mesh {
 namespace {
 
-std::string makeSmallFile(bool isCoded) {
-    const test::TemporaryFolder folder;
-    PackedMesh mesh = test::texturedSoup(40, 1);
-    mesh.materials[2].flags = 0;  // points stand for nothing that is blended
-    for (const std::uint64_t position : mesh.positions)
-        mesh.exact.push_back(mesh.lattice.metres(unpackPosition(position)) + 0.01);
-    mesh.lights = {{{{0, 0, -1}, {1, 1, 1}}},
-                   {{{1, 2, 3}, {1, 0.5, 0}, 10, fabric::LightCone{{1, 0, 0}, 10, 20}}}};
-    auto tree = buildKdTree(mesh.positions, mesh.triangles, {10});
-    auto out = OutputFile::create(folder.file("m.eym"));
-    EXPECT_TRUE(tree.ok() && out.ok());
-    auto lod =
-        buildLodTree(mesh, *tree, {.nodeTriangles = 10, .sampledTriangles = 20, .nodePoints = 16});
-    EXPECT_TRUE(lod.ok() && lod->points[0].has_value());
-    EXPECT_TRUE(
-        writeEym(mesh, *tree, *lod, findBacks(mesh, *tree), {.isCoded = isCoded}, *out).ok());
-    EXPECT_TRUE(out->commit().ok());
-    return test::readFile(folder.file("m.eym"));
-}
-
 const std::string& smallFile(bool isCoded = true) {
-    static const std::string coded = makeSmallFile(true);
-    static const std::string raw = makeSmallFile(false);
+    static const std::string coded = test::sampleEym(true);
+    static const std::string raw = test::sampleEym(false);
     return isCoded ? coded : raw;
 }
 
