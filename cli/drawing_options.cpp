@@ -34,7 +34,8 @@ void addDrawingOptions(CLI::App& command, DrawingOptions& options) {
     command
         .add_option("--host-memory", options.hostMemory,
                     "Limit of a renderer's indices of terrains, 28 bytes a tile, and of pages kept "
-                    "in memory, those being read included")
+                    "in memory, those being read included; of tables of meshes, when they are "
+                    "opened")
         ->type_name("BYTES[K|M|G|T]")
         ->capture_default_str();
     command

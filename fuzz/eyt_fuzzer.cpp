@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // .eyt files, whose header, index and pages are untrusted once their checksums are right.
 //
-// An input's first byte picks how it is read. 255 takes the rest for a file, whose checksums are
-// put right. Otherwise each four bytes after it put the fourth at the offset that the first three
-// name, in a real terrain's header (even) or index (odd): so inputs reach past the checks of sizes.
-#include <array>
+// An input's first byte picks how it is read. 255 takes the rest for a file. Otherwise each four
+// bytes after it put the fourth at the offset that the first three name, in a real terrain's header
+// (0, 3, ...), index (1, ...) or pages (2, ...): so inputs reach past the checks of sizes.
+// Checksums are put right, those of pages in the real terrain only.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sys/mman.h>
@@ -19,59 +20,56 @@
 
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/eyt_layout.h"
+#include "tests/renderer/import/imagery_fixture.h"
 
 namespace {
 
 using namespace eyrie;
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::uint32_t kColumns = 300;
-constexpr std::uint32_t kRows = 140;
-constexpr std::uint32_t kPageBytes = 400;
-
-template <typename Record>
-void append(const std::vector<Record>& records, Bytes& bytes) {
-    const auto* from = reinterpret_cast<const std::uint8_t*>(records.data());
-    bytes.insert(bytes.end(), from, from + records.size() * sizeof(Record));
+/// A terrain with imagery.
+Bytes realFile() {
+    const test::TemporaryFolder folder;
+    const test::Picture picture{.west = test::kWest,
+                                .north = test::kSouth + 60,
+                                .columns = 140,
+                                .rows = 60,
+                                .colour = [](double x, double y) {
+                                    return fabric::Rgba{static_cast<std::uint8_t>(x),
+                                                        static_cast<std::uint8_t>(y), 99, 255};
+                                }};
+    test::writePicture(folder.path("picture.tif"), picture);
+    const auto file =
+        test::importedWith(test::slope(140, 70, 1), {folder.path("picture.tif")}, folder);
+    const std::string bytes = test::contents((*file)->path());
+    return {bytes.begin(), bytes.end()};
 }
 
-/// Header, a page of zeros, and the index of a flat terrain.
-Bytes realFile() {
-    const terrain::Quadtree quadtree(kColumns, kRows);
+const Bytes& real() {
+    static const Bytes kReal = realFile();
+    return kReal;
+}
+
+terrain::FileHeader headerOf(const Bytes& file) {
     terrain::FileHeader header;
-    header.levels = static_cast<std::uint32_t>(quadtree.levels());
-    header.columns = kColumns;
-    header.rows = kRows;
-    for (const std::size_t k : {0U, 5U, 10U, 15U}) header.objectFromLattice[k] = 1;
-    header.crsBytes = 8;
-    header.indexOffset = sizeof header + kPageBytes;
-    const std::vector<char> crs(header.crsBytes, 'x');
-    std::vector<terrain::TileRecord> tiles(quadtree.tileCount());
-    for (terrain::TileRecord& tile : tiles) tile.maxHeightMetres = 1;
-    std::vector<terrain::PageRecord> pages(quadtree.pageCount());
-    const Bytes page(kPageBytes);
-    pages[0].offset = sizeof header;
-    pages[0].bytes = kPageBytes;
-    pages[0].checksum = XXH64(page.data(), page.size(), 0);
-    Bytes index;
-    append(crs, index);
-    append(tiles, index);
-    index.resize(terrain::roundUp(index.size(), 8));
-    append(pages, index);
-    header.indexBytes = index.size();
-    Bytes file(header.indexOffset + index.size());  // the page's bytes are zeros
-    std::memcpy(file.data(), &header, sizeof header);
-    std::memcpy(file.data() + header.indexOffset, index.data(), index.size());
-    return file;
+    std::memcpy(static_cast<void*>(&header), file.data(), sizeof header);
+    return header;
+}
+
+/// Of the bytes that an input of that kind changes.
+std::pair<std::size_t, std::size_t> changeable(std::uint8_t kind) {
+    const terrain::FileHeader header = headerOf(real());
+    if (kind % 3 == 0)
+        return {0, sizeof header};
+    return kind % 3 == 1 ? std::pair(header.indexOffset, real().size())
+                         : std::pair(sizeof header, header.indexOffset);
 }
 
 Bytes changedFile(const std::uint8_t* data, std::size_t size) {
-    static const Bytes kReal = realFile();
     if (data[0] == 255)
         return {data + 1, data + size};
-    Bytes file = kReal;
-    const std::size_t begin = data[0] % 2 == 0 ? 0 : sizeof(terrain::FileHeader) + kPageBytes;
-    const std::size_t end = data[0] % 2 == 0 ? sizeof(terrain::FileHeader) : file.size();
+    Bytes file = real();
+    const auto [begin, end] = changeable(data[0]);
     for (std::size_t k = 1; k + 4 <= size; k += 4) {
         const std::size_t offset =
             data[k] | std::size_t{data[k + 1]} << 8 | std::size_t{data[k + 2]} << 16;
@@ -80,10 +78,37 @@ Bytes changedFile(const std::uint8_t* data, std::size_t size) {
     return file;
 }
 
+/// Puts the checksums in an array of records right, wherever these name bytes of the file.
+void sealPages(Bytes& file, std::size_t begin, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) {
+        std::uint8_t* const at = file.data() + begin + k * sizeof(terrain::PageRecord);
+        terrain::PageRecord page;
+        std::memcpy(&page, at, sizeof page);
+        if (page.offset <= file.size() && page.bytes <= file.size() - page.offset)
+            page.checksum = XXH64(file.data() + page.offset, page.bytes, 0);
+        std::memcpy(at, &page, sizeof page);
+    }
+}
+
+/// Those of a file whose index is as long as the real one's.
+void sealPages(Bytes& file) {
+    const terrain::FileHeader header = headerOf(real());
+    const terrain::Quadtree quadtree(header.columns, header.rows);
+    const std::size_t tiles = header.indexOffset + terrain::roundUp(header.crsBytes, 8);
+    const std::size_t pages =
+        header.indexOffset +
+        terrain::roundUp(
+            tiles - header.indexOffset + quadtree.tileCount() * sizeof(terrain::TileRecord), 8);
+    sealPages(file, pages, quadtree.pageCount());
+    constexpr std::size_t kImageryHeader = 32;
+    const std::size_t textures =
+        pages + quadtree.pageCount() * sizeof(terrain::PageRecord) + kImageryHeader;
+    sealPages(file, textures, (file.size() - textures) / sizeof(terrain::PageRecord));
+}
+
 /// What must be right before anything else is looked at.
 void putRight(Bytes& file) {
-    terrain::FileHeader header;
-    std::memcpy(static_cast<void*>(&header), file.data(), sizeof header);
+    terrain::FileHeader header = headerOf(file);
     header.magic = terrain::kEytMagic;
     header.version = terrain::kEytVersion;
     if (header.indexOffset <= file.size() && header.indexBytes <= file.size() - header.indexOffset)
@@ -102,10 +127,14 @@ void use(const terrain::EytFile& file) {
         !(index.finestErrorMetres() >= 0))
         std::abort();
     static_cast<void>(index.triangles());
-    for (std::uint32_t page = 0; page < index.pages.size(); ++page)
-        if (const auto read = file.readPage(page);
-            !read.ok() && read.status().code() != absl::StatusCode::kDataLoss)
+    const auto expect = [](const absl::Status& status) {
+        if (!status.ok() && status.code() != absl::StatusCode::kDataLoss)
             std::abort();
+    };
+    for (std::uint32_t page = 0; page < index.pages.size(); ++page)
+        expect(file.readPage(page).status());
+    for (std::uint32_t k = 0; index.imagery && k < index.imagery->pyramid.tileCount(); ++k)
+        expect(file.readTexture(index.imagery->pyramid.tileOf(k)).status());
 }
 
 }  // namespace
@@ -114,6 +143,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size == 0)
         return 0;
     Bytes bytes = changedFile(data, size);
+    if (data[0] != 255)
+        sealPages(bytes);
     if (bytes.size() >= sizeof(terrain::FileHeader))
         putRight(bytes);
     const int fd = memfd_create("terrain", MFD_CLOEXEC);

@@ -75,6 +75,13 @@ absl::Status checkReach(const fabric::SceneObject& object, const fabric::Box& bo
     return absl::OkStatus();
 }
 
+/// What is always in memory of an open file: its index, or its tables.
+std::uint64_t memoryBytesOf(const ObjectFile& file) {
+    if (const auto* terrain = std::get_if<TerrainFile>(&file))
+        return (*terrain)->indexMemoryBytes();
+    return std::get<MeshFile>(file)->tableMemoryBytes();
+}
+
 /// What the indices of terrains take in memory for as long as they are open.
 std::uint64_t indexBytesOf(const std::vector<ObjectFile>& files) {
     std::uint64_t bytes = 0;
@@ -128,8 +135,8 @@ private:
           sources_(page::sourceOptions(options.remote.cacheFolder, options.remote.cacheBytes)) {}
 
     page::Loader& loaderFor(const fabric::SceneObject& object);
-    absl::StatusOr<TerrainFile> openTerrainFile(const std::string& path,
-                                                std::uint64_t indexLimit) const;
+    absl::StatusOr<ObjectFile> openFile(const fabric::SceneObject& object,
+                                        std::uint64_t limit) const;
     absl::StatusOr<std::vector<ObjectFile>> openFiles(const fabric::Scene& scene) const;
     std::vector<draw::MemoryUse> sharesOf(const std::vector<ObjectFile>& files,
                                           std::uint64_t hostBytes) const;
@@ -197,31 +204,30 @@ page::Loader& Renderer::Impl::loaderFor(const fabric::SceneObject& object) {
     return *remoteLoader_;
 }
 
-/// Of `indexLimit` bytes its index may take. What does not fit is told before all is read.
-absl::StatusOr<TerrainFile> Renderer::Impl::openTerrainFile(const std::string& path,
-                                                            std::uint64_t indexLimit) const {
-    absl::StatusOr<TerrainFile> file = terrain::EytFile::open(path, sources_, indexLimit);
-    if (!absl::IsResourceExhausted(file.status()))
-        return file;
-    return absl::ResourceExhaustedError(fmt::format(
-        "{}; the indices of the scene's terrains may take {} bytes of host memory: raise the limit "
-        "(--host-memory of eyrie renderer), or open fewer or smaller terrains",
-        std::string(file.status().message()), options_.hostMemoryBytes));
+/// Of `limit` bytes its index or tables may take. What does not fit is told before all is read.
+absl::StatusOr<ObjectFile> Renderer::Impl::openFile(const fabric::SceneObject& object,
+                                                    std::uint64_t limit) const {
+    if (object.kind == fabric::ObjectKind::Terrain)
+        return terrain::EytFile::open(object.path, sources_, limit);
+    ASSIGN_OR_RETURN(mesh::EymFile file, mesh::EymFile::open(object.path, sources_, limit));
+    return std::make_shared<const mesh::EymFile>(std::move(file));
 }
 
 absl::StatusOr<std::vector<ObjectFile>> Renderer::Impl::openFiles(
     const fabric::Scene& scene) const {
     std::vector<ObjectFile> files;
-    std::uint64_t indexBytes = 0;
-    for (const fabric::SceneObject& object : scene.objects)
-        if (object.kind == fabric::ObjectKind::Terrain) {
-            ASSIGN_OR_RETURN(files.emplace_back(),
-                             openTerrainFile(object.path, options_.hostMemoryBytes - indexBytes));
-            indexBytes = indexBytesOf(files);
-        } else {
-            ASSIGN_OR_RETURN(mesh::EymFile file, mesh::EymFile::open(object.path, sources_));
-            files.emplace_back(std::make_shared<const mesh::EymFile>(std::move(file)));
-        }
+    std::uint64_t left = options_.hostMemoryBytes;
+    for (const fabric::SceneObject& object : scene.objects) {
+        absl::StatusOr<ObjectFile> file = openFile(object, left);
+        if (absl::IsResourceExhausted(file.status()))
+            return absl::ResourceExhaustedError(fmt::format(
+                "{}; the indices of the scene's files may take {} bytes of host memory: raise the "
+                "limit (--host-memory of eyrie renderer), or open fewer or smaller files",
+                std::string(file.status().message()), options_.hostMemoryBytes));
+        RETURN_IF_ERROR(file.status());
+        left -= memoryBytesOf(*file);
+        files.push_back(*std::move(file));
+    }
     return files;
 }
 

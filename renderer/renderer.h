@@ -38,7 +38,8 @@ struct RendererOptions {
     /// error rises, and the statistics say so.
     std::uint64_t memoryBytes = std::uint64_t{2} << 30;
     /// Limit on the bytes in host memory of terrains' indices, which are there whole, and of pages,
-    /// those being loaded included; what the indices leave is shared likewise.
+    /// those being loaded included; what the indices leave is shared likewise. A scene's indices
+    /// and the tables of its meshes, which are not counted else, take no more together.
     std::uint64_t hostMemoryBytes = std::uint64_t{1} << 30;
     /// Threads that read and decode pages.
     int loaderThreads = 2;

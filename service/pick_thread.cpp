@@ -1,11 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/pick_thread.h"
 
+#include <new>
 #include <utility>
 
 #include <fmt/format.h>
 
 namespace eyrie::service {
+namespace {
+
+/// Picks whatever its files say that they hold.
+absl::StatusOr<fabric::Picked> pickWith(const PickFunction& pick,
+                                        const fabric::PickRequest& request,
+                                        std::chrono::steady_clock::time_point deadline) {
+    try {
+        return pick(request, deadline);
+    } catch (const std::bad_alloc&) {
+        return absl::ResourceExhaustedError("the renderer has no memory for the pick");
+    }
+}
+
+}  // namespace
 
 PickThread::PickThread() : thread_([this] { work(); }) {}
 
@@ -55,7 +70,7 @@ void PickThread::work() {
             const Job job = std::move(jobs_.front());
             jobs_.pop_front();
             lock.unlock();
-            job.done(job.pick(job.request, job.deadline));
+            job.done(pickWith(job.pick, job.request, job.deadline));
         }  // what it holds goes here, not under the lock
         lock.lock();
     }

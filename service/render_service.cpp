@@ -2,6 +2,7 @@
 #include "service/render_service.h"
 
 #include <algorithm>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -23,9 +24,19 @@
 namespace eyrie::service {
 namespace {
 
+/// Opens a scene whatever its files say that they hold.
+absl::StatusOr<fabric::SceneInfo> opened(ChannelDrawer& drawer, const fabric::Scene& scene) {
+    try {
+        return drawer.openScene(scene);
+    } catch (const std::bad_alloc&) {
+        return absl::ResourceExhaustedError(
+            "the renderer has no memory for the scene; open fewer or smaller files");
+    }
+}
+
 absl::Status openScene(ChannelDrawer& drawer, const fabric::Scene& scene, PickThread& picks,
                        v1::OpenSceneResponse& response) {
-    ASSIGN_OR_RETURN(const fabric::SceneInfo info, drawer.openScene(scene));
+    ASSIGN_OR_RETURN(const fabric::SceneInfo info, opened(drawer, scene));
     picks.use(drawer.pickFunction());
     response = wire::toMessage(info);
     return absl::OkStatus();

@@ -14,6 +14,8 @@
 #include <glm/vector_relational.hpp>
 
 #include "fabric/status.h"
+#include "renderer/mesh/codec/exact_codec.h"
+#include "renderer/mesh/codec/page_codec.h"
 #include "renderer/mesh/damaged.h"
 #include "renderer/mesh/kd_tree.h"
 #include "renderer/mesh/lids.h"
@@ -104,7 +106,7 @@ private:
     absl::Status checkNode(std::uint32_t index) const;
     absl::Status checkBox(std::uint32_t index) const;
     absl::Status checkPage(std::uint32_t index, std::string_view field, std::uint64_t offset,
-                           std::uint64_t bytes) const;
+                           std::uint64_t bytes, std::uint64_t mostBytes) const;
     absl::Status checkGeometry(std::uint32_t index) const;
     absl::Status checkChildren(std::uint32_t index) const;
     absl::Status checkInside(std::uint32_t childIndex, const Node& parent) const;
@@ -136,7 +138,10 @@ absl::Status NodeCheck::checkBox(std::uint32_t index) const {
 }
 
 absl::Status NodeCheck::checkPage(std::uint32_t index, std::string_view field, std::uint64_t offset,
-                                  std::uint64_t bytes) const {
+                                  std::uint64_t bytes, std::uint64_t mostBytes) const {
+    if (bytes > mostBytes)
+        return damaged(fmt::format("node {}: {}", index, field), fmt::format("{} bytes", bytes),
+                       fmt::format("at most {}", mostBytes));
     if (offset < endOfTables(header_) || offset > header_.fileBytes ||
         bytes > header_.fileBytes - offset)
         return damaged(
@@ -165,14 +170,18 @@ absl::Status NodeCheck::checkGeometry(std::uint32_t index) const {
                        fmt::format("a multiple of 3, at most {}", node.indexCount));
     if (!node.hasGeometry())
         return absl::OkStatus();
-    RETURN_IF_ERROR(checkPage(index, "page", node.pageOffset, node.pageBytes));
-    const std::uint64_t block = blockBytes(shapeOf(node, header_.flags));
-    if ((header_.flags & kIsCoded) == 0 && (node.pageBytes != block || node.pageOffset % 8 != 0))
+    const NodeShape shape = shapeOf(node, header_.flags);
+    const std::uint64_t block = blockBytes(shape);
+    const bool isCoded = (header_.flags & kIsCoded) != 0;
+    RETURN_IF_ERROR(checkPage(index, "page", node.pageOffset, node.pageBytes,
+                              isCoded ? mostPageBytes(shape) : block));
+    if (!isCoded && (node.pageBytes != block || node.pageOffset % 8 != 0))
         return damaged(fmt::format("node {}: page", index),
                        fmt::format("{} bytes at {}", node.pageBytes, node.pageOffset),
                        fmt::format("{} at a multiple of 8", block));
     return node.isLeaf() && (header_.flags & kHasExact) != 0
-               ? checkPage(index, "exact", node.exactOffset, node.exactBytes)
+               ? checkPage(index, "exact", node.exactOffset, node.exactBytes,
+                           mostExactBytes(node.vertexCount))
                : absl::OkStatus();
 }
 

@@ -52,20 +52,30 @@ absl::StatusOr<std::uint64_t> contentHash(const std::string& path) {
     return XXH64_digest(state.get());
 }
 
-absl::StatusOr<EymFile> EymFile::open(const std::string& path, const page::SourceOptions& options) {
+absl::StatusOr<EymFile> EymFile::open(const std::string& path, const page::SourceOptions& options,
+                                      std::uint64_t mostMemoryBytes) {
     ASSIGN_OR_RETURN(std::unique_ptr<page::PageSource> source,
                      page::PageSource::open(path, sizeof(EymHeader), options));
     EymFile file(std::move(source));
-    RETURN_IF_ERROR(file.readTables());
+    RETURN_IF_ERROR(file.readTables(mostMemoryBytes));
     return file;
 }
 
-absl::Status EymFile::readTables() {
+std::uint64_t EymFile::tableMemoryBytes() const {
+    const std::uint64_t firstRanges = header_.materialCount == 0 ? 0 : header_.nodeCount + 1ULL;
+    return endOfTables(header_) - sizeof(EymHeader) + firstRanges * sizeof(std::uint32_t);
+}
+
+absl::Status EymFile::readTables(std::uint64_t mostMemoryBytes) {
     RETURN_IF_ERROR(
         fabric::withContext(checkHeader(source_->head(), source_->sizeBytes()), path()));
     std::memcpy(&header_, source_->head().data(), sizeof header_);
     lattice_ = {{header_.originMetres[0], header_.originMetres[1], header_.originMetres[2]},
                 header_.stepMetres};
+    if (tableMemoryBytes() > mostMemoryBytes)
+        return absl::ResourceExhaustedError(
+            fmt::format("{}: its tables take {} bytes of memory, {} are left", path(),
+                        tableMemoryBytes(), mostMemoryBytes));
     nodes_.resize(header_.nodeCount);
     const auto bytes = std::as_writable_bytes(std::span(nodes_));
     RETURN_IF_ERROR(source_->read({sizeof(EymHeader), bytes.size(), header_.nodesChecksum}, bytes,

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -201,17 +202,22 @@ static_assert(sizeof(Cone) == 32);
 /// An open .eym file. Any thread may call any function.
 ///
 /// open() checks the header and every node; geometry() and exactPositions() check what they read.
-/// So no file, however damaged, makes a reader take more memory than a node has.
+/// So no file, however damaged, makes a reader take more memory than its tables, which open() may
+/// limit, and a node have.
 class EymFile {
 public:
     /// `path` may be an address (page/remote_name.h): pages are then read one by one, through the
     /// cache of `options`. Errors: NotFound, PermissionDenied, InvalidArgument (not an .eym file,
-    /// another version), DataLoss (truncated, or its tables are damaged); of an address those of
-    /// page::PageSource, too.
-    static absl::StatusOr<EymFile> open(const std::string& path,
-                                        const page::SourceOptions& options = {});
+    /// another version), DataLoss (truncated, or its tables are damaged); ResourceExhausted, before
+    /// the tables are read, where they would take more than `mostMemoryBytes`; of an address those
+    /// of page::PageSource, too.
+    static absl::StatusOr<EymFile> open(
+        const std::string& path, const page::SourceOptions& options = {},
+        std::uint64_t mostMemoryBytes = std::numeric_limits<std::uint64_t>::max());
 
     const std::string& path() const { return source_->name(); }
+    /// What its tables take in memory.
+    std::uint64_t tableMemoryBytes() const;
     const Lattice& lattice() const { return lattice_; }
     std::span<const Node> nodes() const { return nodes_; }  ///< never empty; [0] is the root
     bool hasColours() const { return (header_.flags & kHasColours) != 0; }
@@ -264,7 +270,7 @@ public:
 private:
     explicit EymFile(std::unique_ptr<page::PageSource> source) : source_(std::move(source)) {}
 
-    absl::Status readTables();
+    absl::Status readTables(std::uint64_t mostMemoryBytes);
     absl::Status readLids();
     absl::Status readMaterials();
     absl::Status readPointRanges();

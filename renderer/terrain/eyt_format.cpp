@@ -12,9 +12,15 @@
 
 #include "fabric/status.h"
 #include "renderer/terrain/eyt_layout.h"
+#include "renderer/terrain/tile_triangulation.h"
 
 namespace eyrie::terrain {
 namespace {
+
+/// Twice what 16 full tiles take that nothing shrinks: of a post, two flags and a height's symbol,
+/// 4 bytes of its plain bits, and two symbols of a normal; a symbol takes a word at most.
+constexpr std::uint64_t kMaxPageBytes = 8 << 20;
+static_assert(kPageTiles * kPageTiles * kMaxTileVertices * (3 * 2 + 4 + 2 * 2) < kMaxPageBytes / 2);
 
 constexpr const char* kRemedy = "import the elevation model again";
 
@@ -132,11 +138,12 @@ absl::Status parseIndex(const FileHeader& header, const IndexPlaces& places,
         RETURN_IF_ERROR(checkTile(index.tiles[k], path, k));
     for (std::size_t k = 0; k < index.pages.size(); ++k) {
         const PageRecord& page = index.pages[k];
-        const bool isPage = page.bytes >= sizeof(PageHeader) && page.bytes % 4 == 0 &&
-                            page.offset >= sizeof(FileHeader) &&
+        const bool isPage = page.bytes >= sizeof(PageHeader) && page.bytes <= kMaxPageBytes &&
+                            page.bytes % 4 == 0 && page.offset >= sizeof(FileHeader) &&
                             fits(page.offset, page.bytes, header.indexOffset);
         if (page.bytes != 0 && !isPage)
-            return corrupt(path, fmt::format("page {}: {} bytes at {} do not lie among the pages",
+            return corrupt(path, fmt::format("page {}: {} bytes at {} are too many, or do not lie "
+                                             "among the pages",
                                              k, page.bytes, page.offset));
     }
     if (places.pagesEnd == bytes.size())

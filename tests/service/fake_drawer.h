@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <stop_token>
 #include <thread>
@@ -53,7 +54,7 @@ struct FakeDrawerControl {
 };
 
 /// Draws a gradient of colour and depth, with tau in the statistics; opens every scene but
-/// "absent".
+/// "absent" and "endless".
 class FakeDrawer final : public ChannelDrawer {
 public:
     explicit FakeDrawer(std::shared_ptr<FakeDrawerControl> control)
@@ -69,6 +70,8 @@ public:
         checkThread();
         if (!scene.objects.empty() && scene.objects[0].path == "absent")
             return absl::NotFoundError("absent: no such file");
+        if (!scene.objects.empty() && scene.objects[0].path == "endless")
+            throw std::bad_alloc();
         return fabric::SceneInfo{{{0, 0, 0}, {1, 1, 1}}, 12, 34};
     }
 

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <future>
+#include <new>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,6 +18,19 @@ TEST(PickThread, WithoutASceneThereIsNothingToPick) {
     absl::Status status;
     thread.pick({}, kNever, [&](const auto& picked) { status = picked.status(); });
     EXPECT_TRUE(absl::IsFailedPrecondition(status));
+}
+
+TEST(PickThread, WithoutMemoryOnePickFailsAndTheNextIsMade) {
+    PickThread thread;
+    const auto picked = [&thread] {
+        std::promise<absl::Status> status;
+        thread.pick({}, kNever, [&](const auto& answer) { status.set_value(answer.status()); });
+        return status.get_future().get();
+    };
+    thread.use([](const auto&, auto) -> absl::StatusOr<fabric::Picked> { throw std::bad_alloc(); });
+    EXPECT_TRUE(absl::IsResourceExhausted(picked()));
+    thread.use([](const auto&, auto) { return fabric::Picked(); });
+    EXPECT_TRUE(picked().ok());
 }
 
 TEST(PickThread, RefusesPicksBeyondItsBoundAndAnswersAllOthers) {

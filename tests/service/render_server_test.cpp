@@ -340,6 +340,14 @@ TEST_F(RenderServerTest, SceneErrorsKeepTheirCodeAndMessage) {
     EXPECT_THAT(std::string(info.status().message()), testing::HasSubstr("absent: no such file"));
 }
 
+TEST_F(RenderServerTest, ASceneThatTakesAllMemoryIsRefusedAndTheNextOneOpens) {
+    fabric::Scene scene;
+    scene.objects.push_back({"ghost", fabric::ObjectKind::Mesh, "endless", fabric::Mat4(1.0), {}});
+    EXPECT_EQ(renderer_->openScene(scene, soon()).status().code(),
+              absl::StatusCode::kResourceExhausted);
+    EXPECT_TRUE(renderer_->openScene({}, soon()).ok());
+}
+
 TEST_F(RenderServerTest, AnOpenSceneReportsItsExtent) {
     const auto info = renderer_->openScene({}, soon());
     ASSERT_TRUE(info.ok()) << info.status();

@@ -34,4 +34,12 @@ absl::StatusOr<std::vector<fabric::Vec3>> decodeExact(std::span<const std::byte>
                                                       std::span<const std::uint64_t> onLattice,
                                                       const Lattice& lattice, ExactForm form);
 
+/// No page that encodeExact makes of so many positions is longer: a coordinate is a symbol, of a
+/// word at most, and at most 8 bytes of plain bits. The rest is sizes, states, and shares of 3
+/// contexts of up to 65 symbols, each in 3 bytes.
+constexpr std::uint64_t mostExactBytes(std::uint32_t positions) {
+    constexpr std::uint64_t kSharesAndSizes = 1 << 10;
+    return kSharesAndSizes + std::uint64_t{positions} * 3 * (2 + 8);
+}
+
 }  // namespace eyrie::mesh

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -35,5 +36,16 @@ std::vector<std::byte> encodePage(const NodeGeometry& geometry);
 /// Fills `arrays`, which has the node's shape. Safe on any bytes: DataLoss where these are no page
 /// of that shape.
 absl::Status decodePage(std::span<const std::byte> page, const NodeArrays& arrays);
+
+/// No page that encodePage makes of a node of that shape is longer. A number is a symbol, of a word
+/// at most, and at most 4 bytes of plain bits; a vertex has up to 11 of them, a triangle up to 3
+/// and the symbol of the edge that it meets. The rest is sizes, states, and shares of 17 contexts
+/// of up to 256 symbols, each in 3 bytes.
+constexpr std::uint64_t mostPageBytes(const NodeShape& shape) {
+    constexpr std::uint64_t kNumberBytes = 2 + 4;
+    constexpr std::uint64_t kSharesAndSizes = 16 << 10;
+    return kSharesAndSizes + std::uint64_t{shape.vertexCount} * 11 * kNumberBytes +
+           std::uint64_t{shape.indexCount} / 3 * (2 + 3 * kNumberBytes);
+}
 
 }  // namespace eyrie::mesh

@@ -114,6 +114,28 @@ TEST_F(EytDamage, AnIndexLargerThanItsPostsCanHaveIsRefusedBeforeItIsRead) {
         << refused;
 }
 
+TEST_F(EytDamage, APageLargerThanItsTilesCanHaveIsRefusedBeforeItIsRead) {
+    terrain::FileHeader header;
+    std::memcpy(static_cast<void*>(&header), bytes_.data(), sizeof header);
+    constexpr std::uint64_t kLong = std::uint64_t{300} << 30;
+    std::vector<char> index(bytes_.begin() + static_cast<std::ptrdiff_t>(header.indexOffset),
+                            bytes_.end());
+    const terrain::PageRecord page{.offset = sizeof header, .bytes = kLong, .checksum = 1};
+    std::memcpy(index.data() + index.size() - sizeof page, &page, sizeof page);
+    header.indexOffset = kLong + sizeof header;
+    header.indexChecksum = XXH64(index.data(), index.size(), 0);
+    header.headerChecksum = XXH64(&header, offsetof(terrain::FileHeader, headerChecksum), 0);
+    writeBytes(path_, {reinterpret_cast<const char*>(&header),
+                       reinterpret_cast<const char*>(&header) + sizeof header});
+    std::filesystem::resize_file(path_, header.indexOffset);
+    std::ofstream(path_, std::ios::binary | std::ios::app)
+        .write(index.data(), static_cast<std::streamsize>(index.size()));
+    const absl::Status refused = terrain::EytFile::open(path_).status();
+    EXPECT_EQ(refused.code(), absl::StatusCode::kDataLoss);
+    EXPECT_NE(refused.ToString().find("322122547200 bytes at 208 are too many"), std::string::npos)
+        << refused;
+}
+
 TEST_F(EytDamage, OfTheMagicOrVersionIsCalledWhatItIs) {
     std::vector<char> damaged = bytes_;
     damaged[0] = 'X';

@@ -2,6 +2,7 @@
 // Whatever happens to the bytes of an .eym file, a reader ends in a status or in spans that may be
 // read. Run under the address sanitizer this also shows that nothing is read outside.
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -12,37 +13,15 @@
 #include <rapidcheck/gtest.h>
 
 #include "renderer/mesh/eym_format.h"
-#include "renderer/mesh/eym_writer.h"
-#include "renderer/mesh/kd_tree.h"
-#include "tests/renderer/mesh/sample_meshes.h"
+#include "tests/renderer/mesh/sample_eym.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
 namespace eyrie::mesh {
 namespace {
 
-std::string makeSmallFile(bool isCoded) {
-    const test::TemporaryFolder folder;
-    PackedMesh mesh = test::texturedSoup(40, 1);
-    mesh.materials[2].flags = 0;  // points stand for nothing that is blended
-    for (const std::uint64_t position : mesh.positions)
-        mesh.exact.push_back(mesh.lattice.metres(unpackPosition(position)) + 0.01);
-    mesh.lights = {{{{0, 0, -1}, {1, 1, 1}}},
-                   {{{1, 2, 3}, {1, 0.5, 0}, 10, fabric::LightCone{{1, 0, 0}, 10, 20}}}};
-    auto tree = buildKdTree(mesh.positions, mesh.triangles, {10});
-    auto out = OutputFile::create(folder.file("m.eym"));
-    EXPECT_TRUE(tree.ok() && out.ok());
-    auto lod =
-        buildLodTree(mesh, *tree, {.nodeTriangles = 10, .sampledTriangles = 20, .nodePoints = 16});
-    EXPECT_TRUE(lod.ok() && lod->points[0].has_value());
-    EXPECT_TRUE(
-        writeEym(mesh, *tree, *lod, findBacks(mesh, *tree), {.isCoded = isCoded}, *out).ok());
-    EXPECT_TRUE(out->commit().ok());
-    return test::readFile(folder.file("m.eym"));
-}
-
 const std::string& smallFile(bool isCoded = true) {
-    static const std::string coded = makeSmallFile(true);
-    static const std::string raw = makeSmallFile(false);
+    static const std::string coded = test::sampleEym(true);
+    static const std::string raw = test::sampleEym(false);
     return isCoded ? coded : raw;
 }
 
@@ -315,6 +294,42 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
         EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss) << c.name;
         EXPECT_NE(status.message().find("found"), std::string::npos) << c.name << ": " << status;
     }
+}
+
+/// A few blocks on disk may claim a file of gigabytes.
+TEST(EymDamage, APageLargerThanItsNodeCanHaveIsRefusedBeforeItIsRead) {
+    const test::TemporaryFolder folder;
+    const std::string& bytes = smallFile();
+    constexpr std::uint64_t kLong = 1U << 30;
+    for (const auto& damage : {+[](Node& node) { node.pageBytes = kLong; },
+                               +[](Node& node) { node.exactBytes = kLong; }}) {
+        Tables tables(bytes);
+        tables.header.fileBytes += kLong;
+        damage(tables.nodes.back());
+        test::writeFile(folder.file("m.eym"), tables.sealedInto(bytes));
+        std::filesystem::resize_file(folder.file("m.eym"), tables.header.fileBytes);
+        const absl::Status refused = EymFile::open(folder.file("m.eym")).status();
+        EXPECT_EQ(refused.code(), absl::StatusCode::kDataLoss);
+        EXPECT_NE(refused.message().find("found 1073741824 bytes"), std::string::npos) << refused;
+    }
+}
+
+TEST(EymDamage, TablesLargerThanTheMemoryForThemAreNotReadFirst) {
+    const test::TemporaryFolder folder;
+    const std::string& bytes = smallFile();
+    Tables tables(bytes);
+    test::writeFile(folder.file("m.eym"), bytes);
+    const std::uint64_t needed = EymFile::open(folder.file("m.eym"))->tableMemoryBytes();
+    EXPECT_GE(needed, tables.endOfTables() - sizeof(EymHeader));
+    EXPECT_TRUE(EymFile::open(folder.file("m.eym"), {}, needed).ok());
+    tables.header.nodeCount = 1U << 31;
+    tables.header.fileBytes = std::uint64_t{300} << 30;
+    test::writeFile(folder.file("m.eym"), tables.sealedInto(bytes));
+    std::filesystem::resize_file(folder.file("m.eym"), tables.header.fileBytes);
+    const absl::Status refused =
+        EymFile::open(folder.file("m.eym"), {}, std::uint64_t{1} << 30).status();
+    EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted) << refused;
+    EXPECT_NE(refused.message().find("its tables take"), std::string::npos) << refused;
 }
 
 TEST(EymDamage, AnEarlierVersionIsRefusedForItsBounds) {

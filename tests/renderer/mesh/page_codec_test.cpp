@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -94,7 +95,9 @@ NodeShape shapeOf(const PackedNode& node) {
 
 RC_GTEST_PROP(MeshPage, GivesBackWhatItWasMadeOf, ()) {
     const PackedNode node = anyNode();
-    const Decoded decoded = decode(encodePage(geometryOf(node)), shapeOf(node));
+    const std::vector<std::byte> page = encodePage(geometryOf(node));
+    RC_ASSERT(page.size() <= mostPageBytes(shapeOf(node)));
+    const Decoded decoded = decode(page, shapeOf(node));
     RC_ASSERT(decoded.status.ok());
     RC_ASSERT(std::ranges::equal(decoded.geometry.positions, node.positions));
     RC_ASSERT(std::ranges::equal(decoded.geometry.normals, node.normals));
@@ -116,6 +119,18 @@ RC_GTEST_PROP(MeshPage, ThatIsDamagedEndsInAStatusOrInAnotherMesh, ()) {
     if (decoded.status.ok())
         for (const std::uint16_t index : decoded.geometry.indices)
             RC_ASSERT(index < node.positions.size());
+}
+
+/// Numbers that nothing foresees, of every size.
+TEST(MeshPage, IsNeverLongerThanItIsSaidToBe) {
+    PackedNode node = gathered(test::randomSoup(20000, 60000, 1U << kLatticeBits, 1, true));
+    std::mt19937 random(1);
+    for (std::size_t v = 0; v < node.positions.size(); ++v)
+        node.textureCoordinates.emplace_back(static_cast<int>(random()),
+                                             static_cast<int>(random()));
+    const std::size_t bytes = encodePage(geometryOf(node)).size();
+    EXPECT_LE(bytes, mostPageBytes(shapeOf(node)));
+    EXPECT_GT(bytes, mostPageBytes(shapeOf(node)) / 4);
 }
 
 TEST(MeshPage, OfARegularSurfaceTakesFewBitsATriangle) {
@@ -186,6 +201,7 @@ RC_GTEST_PROP(ExactPositions, ComeBackToTheBit, ()) {
     const ExactForm form = exactFormOf(exact);
     RC_ASSERT(!isFloat || form == ExactForm::Float32);
     std::vector<std::byte> page = encodeExact(exact, onLattice, lattice, form);
+    RC_ASSERT(page.size() <= mostExactBytes(static_cast<std::uint32_t>(exact.size())));
     const auto back = decodeExact(page, onLattice, lattice, form);
     RC_ASSERT(back.ok() && back->size() == exact.size());
     for (std::size_t v = 0; v < exact.size(); ++v)
