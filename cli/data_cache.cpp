@@ -28,8 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raise either when an importer makes something else of the same source.
-constexpr int kMeshImporterVersion = 12;
-constexpr int kTerrainImporterVersion = 10;
+constexpr int kMeshImporterVersion = 13;
+constexpr int kTerrainImporterVersion = 11;
 
 std::string lowerCaseEnding(const std::string& path) {
     std::string ending = fs::path(page::withoutQuery(path)).extension().string();
