@@ -154,16 +154,20 @@ std::vector<fabric::Rgba> halved(const Tile& tile, const terrain::TexturePyramid
     return half;
 }
 
+bool areHoles(const std::vector<fabric::Rgba>& texels) {
+    return std::ranges::count(texels, fabric::Rgba{0, 0, 0, 0}) == std::ssize(texels);
+}
+
 /// Turns a tile's texels into what is made of them. Of small pictures over a large terrain nearly
 /// all tiles are empty.
 void finish(Tile& tile, const terrain::TexturePyramid& pyramid) {
-    constexpr fabric::Rgba kHole{0, 0, 0, 0};
-    const bool isEmpty = std::ranges::count(tile.texels, kHole) == std::ssize(tile.texels);
-    if (tile.id != pyramid.top())
-        tile.made.half = isEmpty ? std::vector(OwnTexels(tile, pyramid).halfTexels(), kHole)
-                                 : halved(tile, pyramid);
-    if (!isEmpty)
+    if (!areHoles(tile.texels)) {
+        if (tile.id != pyramid.top())
+            tile.made.half = halved(tile, pyramid);
+        if (areHoles(tile.made.half))
+            tile.made.half = {};
         TileEncoder(tile, pyramid).encode();
+    }
     tile.texels = {};
 }
 
