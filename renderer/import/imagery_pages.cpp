@@ -216,8 +216,8 @@ public:
             RETURN_IF_ERROR(makeLevel(level, stages));
         if (covered_ == 0)
             return absl::InvalidArgumentError(fmt::format(
-                "{}: the terrain lies where no picture has a pixel (alpha 0 or nodata); check "
-                "their coordinates and CRS (gdalinfo)",
+                "{}: the terrain lies where no picture has a pixel (alpha below half, or nodata); "
+                "check their coordinates, CRS and alpha (gdalinfo)",
                 pictures_.names));
         imagery_.psnrDb = psnrDb(lossSquares_, covered_);
         imagery_.coveredTexels = covered_;

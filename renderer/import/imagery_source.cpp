@@ -231,7 +231,7 @@ private:
                 any = &layer.file;
             }
         if (any != nullptr && !(most > 0))
-            return invalid(any->path, "holds no value above 0; is it the picture you mean?");
+            return invalid(any->path, "has no pixel above 0; is it the picture you mean?");
         for (Layer& layer : layers_)
             if (layer.file.brightest)
                 turnToBytes(layer.file, most);
