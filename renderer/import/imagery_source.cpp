@@ -194,10 +194,7 @@ public:
         RETURN_IF_ERROR(turnAllToBytes());
         for (const Layer& layer : layers_)
             notes_.insert(notes_.end(), layer.file.notes.begin(), layer.file.notes.end());
-        std::reverse(layers_.begin(), layers_.end());
-        std::stable_sort(layers_.begin(), layers_.end(), [](const Layer& a, const Layer& b) {
-            return a.place.pixelPosts < b.place.pixelPosts * (1 - kEquallyFine);
-        });
+        sortByRank();
         const double octaves = -std::log2(layers_.front().place.pixelPosts) - kOctavesOfSlack;
         const int shift = std::max(static_cast<int>(std::ceil(octaves)), coarsestShift());
         if (!TexturePyramid::isPossible(grid_.frame.columns, grid_.frame.rows, shift))
@@ -236,6 +233,23 @@ private:
             if (layer.file.brightest)
                 turnToBytes(layer.file, most);
         return absl::OkStatus();
+    }
+
+    /// The finest first; of those hardly coarser than the finest of them, the one named last.
+    void sortByRank() {
+        std::vector<double> sizes;
+        for (const Layer& layer : layers_) sizes.push_back(layer.place.pixelPosts);
+        std::sort(sizes.begin(), sizes.end());
+        std::vector<double> finest;  // of each group
+        for (const double size : sizes)
+            if (finest.empty() || finest.back() < size * (1 - kEquallyFine))
+                finest.push_back(size);
+        const auto group = [&](const Layer& layer) {
+            return std::upper_bound(finest.begin(), finest.end(), layer.place.pixelPosts);
+        };
+        std::reverse(layers_.begin(), layers_.end());
+        std::stable_sort(layers_.begin(), layers_.end(),
+                         [&](const Layer& a, const Layer& b) { return group(a) < group(b); });
     }
 
     /// Of texels no larger than the terrain, so that one has its middle there.

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <utility>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -70,6 +71,24 @@ TEST_F(ImageryImport, TakesTheFinestAndThenTheLastPicture) {
     expectColours(*file, 10, [&](double x, double) {
         return x < kWest + 320 ? blue : x < kWest + 640 ? green : red;
     });
+}
+
+/// Each is within 1 % of the next, the coarsest 2 % coarser than the finest.
+TEST_F(ImageryImport, TakesOneOfTheFinestOfManyNearlyEqualPictures) {
+    std::vector<std::string> paths;
+    std::vector<double> pixels;
+    for (int k = 0; k < 5; ++k) pixels.push_back(10 * std::pow(0.995, 4 - k));
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        const auto grey = static_cast<std::uint8_t>(40 + 30 * k);
+        paths.push_back(write(over(300, 300, pixels[k],
+                                   [=](double, double) {
+                                       return Rgba{grey, grey, grey, 255};
+                                   }),
+                              fmt::format("{}.tif", k)));
+    }
+    const auto file = imported(test::slope(30, 30, 10), paths);
+    ASSERT_NE(file, nullptr);
+    expectColours(*file, 10, [](double, double) { return Rgba{100, 100, 100, 255}; });
 }
 
 TEST_F(ImageryImport, OfHolesAloneIsAnError) {
