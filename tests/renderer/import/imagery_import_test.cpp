@@ -92,12 +92,14 @@ TEST_F(ImageryImport, TakesOneOfTheFinestOfManyNearlyEqualPictures) {
 }
 
 TEST_F(ImageryImport, OfHolesAloneIsAnError) {
-    const auto holes = [](double, double) { return Rgba{1, 2, 3, 0}; };
-    const absl::Status status =
-        importError(test::slope(11, 11, 10), {write(over(100, 100, 10, holes))});
-    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
-    EXPECT_THAT(status.ToString(), HasSubstr("no picture has a pixel"));
-    EXPECT_THAT(folder_.files(), testing::Not(testing::Contains(HasSubstr("with.eyt"))));
+    for (const std::uint8_t alpha : {std::uint8_t{0}, std::uint8_t{120}}) {
+        const auto holes = [=](double, double) { return Rgba{1, 2, 3, alpha}; };
+        const absl::Status status =
+            importError(test::slope(11, 11, 10), {write(over(100, 100, 10, holes))});
+        EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+        EXPECT_THAT(status.ToString(), HasSubstr("no picture has a pixel (alpha below half"));
+        EXPECT_THAT(folder_.files(), testing::Not(testing::Contains(HasSubstr("with.eyt"))));
+    }
 }
 
 /// The blocks beyond a tile's sides are its neighbours' own, so filtering sees no border.
