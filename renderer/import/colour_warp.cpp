@@ -105,6 +105,13 @@ absl::StatusOr<ColourPlace> placeOf(const ColourFile& file, const TexelGrid& gri
         post = postOf({column, row}, frame);
         return isDone != 0 && std::isfinite(post.x) && std::isfinite(post.y);
     };
+    const auto pixelAt = [&](const fabric::Vec2& post, fabric::Vec2& pixel) {
+        pixel = frame.origin + frame.perColumn * post.x + frame.perRow * post.y;
+        double z = 0;
+        int isDone = 0;
+        GDALGenImgProjTransform(transformer.get(), TRUE, 1, &pixel.x, &pixel.y, &z, &isDone);
+        return isDone != 0 && isWithin(pixel, fabric::Vec2(0), {columns, rows});
+    };
     Areas anywhere;
     Areas onTerrain;  // which may be a small part of a picture that is the finer the farther away
     const fabric::Vec2 last(frame.columns - 1, frame.rows - 1);
@@ -127,19 +134,18 @@ absl::StatusOr<ColourPlace> placeOf(const ColourFile& file, const TexelGrid& gri
             const double column = columns * i / kSteps;
             const double row = rows * j / kSteps;
             fabric::Vec2 post;
+            fabric::Vec2 pixel;
             if (postAt(column, row, post)) {
                 place.low = glm::min(place.low, post);
                 place.high = glm::max(place.high, post);
                 lookAt(column, row, post);
+                // Poles are on its rim, and at any column.
+                const bool isInside = i > 0 && i < kSteps && j > 0 && j < kSteps;
+                if (isInside && isWithin(post, fabric::Vec2(0), last) && !pixelAt(post, pixel))
+                    place.isCutOff = true;
             }
             const fabric::Vec2 there = last * fabric::Vec2(i, j) / static_cast<double>(kSteps);
-            const fabric::Vec2 point =
-                frame.origin + frame.perColumn * there.x + frame.perRow * there.y;
-            fabric::Vec2 pixel = point;
-            double z = 0;
-            int isDone = 0;
-            GDALGenImgProjTransform(transformer.get(), TRUE, 1, &pixel.x, &pixel.y, &z, &isDone);
-            if (isDone != 0 && isWithin(pixel, fabric::Vec2(0), {columns, rows}))
+            if (pixelAt(there, pixel))
                 lookAt(pixel.x, pixel.y, there);
         }
     if (anywhere.count == 0)

@@ -26,6 +26,9 @@ struct ColourPlace {
     fabric::Vec2 low;  ///< posts; all of the picture is between these
     fabric::Vec2 high;
     double pixelPosts = 1;  ///< side of a pixel
+    /// Some of what lies on the terrain is not found from there, as where a map goes on past 180
+    /// degrees.
+    bool isCutOff = false;
 };
 
 /// Errors: InvalidArgument (no way from the file's CRS to the terrain's).

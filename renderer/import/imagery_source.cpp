@@ -173,6 +173,11 @@ public:
         else if (!file.crs && grid_.crs)
             notes_.push_back(fmt::format("{} has no CRS: taken to be in the terrain's", path));
         ASSIGN_OR_RETURN(const ColourPlace place, placeOf(file, grid_, gdal_));
+        if (place.isCutOff)
+            notes_.push_back(fmt::format(
+                "{}: a part of it is left out, as where a map goes on past 180 degrees; cut it "
+                "there (gdal_translate -projwin) and move what lies beyond by a turn (-a_ullr)",
+                path));
         const fabric::Vec2 last(grid_.frame.columns - 1, grid_.frame.rows - 1);
         names_ += (names_.empty() ? "" : ", ") + path;
         const bool overlaps =
