@@ -22,7 +22,8 @@ namespace {
 using terrain::TexelRect;
 using terrain::TexturePyramid;
 
-/// A texel may be this many octaves larger than the finest picture's pixel: 2^(1/4).
+/// A texel may be this many octaves larger than the shorter side of the finest picture's
+/// pixel: 2^(1/4).
 constexpr double kOctavesOfSlack = 0.25;
 constexpr double kEquallyFine = 0.01;
 

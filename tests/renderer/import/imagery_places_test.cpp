@@ -122,7 +122,22 @@ TEST_F(ImageryImport, HasTexelsAsFineAsAPictureOfTheEarthHasPixelsThere) {
     // 657 by 928 m at 45 degrees.
     const auto file = imported(test::slope(257, 257, 100), {folder_.path("earth.vrt")});
     ASSERT_NE(file, nullptr);
-    EXPECT_LE(file->index().imagery->pyramid.texelPosts(0), 1.19 * std::sqrt(6.57 * 9.28));
+    EXPECT_LE(file->index().imagery->pyramid.texelPosts(0), 1.19 * 6.57);
+}
+
+TEST_F(ImageryImport, HasTexelsAsFineAsTheShorterSideOfPixels) {
+    terrain::HeightGrid grid = test::slope(200, 200, 10);
+    grid.origin = {kWest, 7'767'000};  // 70 degrees north, where a degree is 38 by 111.5 km
+    Picture picture{.epsg = 4326,
+                    .west = 14.95,
+                    .north = 70.04,
+                    .pixel = 58 / 111.5e3,
+                    .columns = 300,
+                    .rows = 150,
+                    .colour = waves(1)};
+    const auto file = imported(grid, {write(picture)});
+    ASSERT_NE(file, nullptr);
+    EXPECT_EQ(file->index().imagery->pyramid.texelPosts(0), 2);
 }
 
 /// Hard case 26: a picture of all longitudes over a terrain with the pole in it. Expected is the
