@@ -186,8 +186,10 @@ void addImportTerrain(CLI::App& parent, Run& run) {
         ->type_name("BYTES")
         ->capture_default_str();
     command
-        ->add_option("--scratch", options->scratch,
-                     "Folder for that file (9 bytes a post); beside the output otherwise")
+        ->add_option(
+            "--scratch", options->scratch,
+            "Folder for that file (9 bytes a post, and with imagery 4/3 byte for each texel "
+            "that a picture covers); beside the output otherwise")
         ->type_name("FOLDER")
         ->check(CLI::ExistingDirectory);
     command->add_option("--threads", options->threads, "0: as many as there are cores")

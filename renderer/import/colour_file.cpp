@@ -28,7 +28,7 @@ struct ColourRule {
     const GDALColorTable* palette = nullptr;
     std::array<std::optional<double>, 3> nodata;
     double bytePerValue = 1;
-    std::optional<double> brightest;  ///< value, where none is said to be the most
+    bool isByBrightest = false;  ///< no value is said to be the most
     double alphaBytePerValue = 1;
 };
 
@@ -63,14 +63,8 @@ std::optional<double> mostByTag(GDALDataset& dataset, const std::array<int, 3>& 
     return most;
 }
 
-/// Of all values, at least 0.
-double brightest(GDALDataset& dataset, const std::array<int, 3>& bands) {
-    double most = 0;
-    for (const int number : bands)
-        if (std::array<double, 2> range{};
-            dataset.GetRasterBand(number)->ComputeRasterMinMax(FALSE, range.data()) == CE_None)
-            most = std::max(most, range[1]);
-    return most;
+bool isNarrow(GDALRasterBand& band) {
+    return band.GetMetadataItem("NBITS", "IMAGE_STRUCTURE") != nullptr;
 }
 
 /// What alpha of other than 8 bits is where nothing lets through: by its tag, its type, or 255 of
@@ -99,6 +93,15 @@ absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& data
         return invalid(path, fmt::format("holds {} values, not colours of 8 or 16 bits; turn it "
                                          "into them with gdal_translate -ot Byte -scale",
                                          GDALGetDataTypeName(type)));
+    const GDALColorInterp tag = first->GetColorInterpretation();
+    if (tag >= GCI_HueBand && tag <= GCI_YCbCr_CrBand)
+        return invalid(path, fmt::format("its band {} is {}, and not red or grey; {}",
+                                         rule.colours[0], GDALGetColorInterpretationName(tag),
+                                         tag >= GCI_CyanBand && tag <= GCI_BlackBand
+                                             ? "turn it into 8 bits, which GDAL reads as red, "
+                                               "green and blue (gdal_translate -ot Byte -scale 0 "
+                                               "65535 0 255 -co PHOTOMETRIC=CMYK)"
+                                             : "turn it into red, green and blue first"));
     rule.palette = first->GetColorTable();
     const int mask = first->GetMaskFlags();
     rule.hasMask = rule.alpha == 0 && mask != GMF_ALL_VALID && mask != GMF_NODATA;
@@ -108,17 +111,19 @@ absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& data
         if (isSet != 0)
             rule.nodata[c] = value;
     }
-    const bool isNarrow = first->GetMetadataItem("NBITS", "IMAGE_STRUCTURE") != nullptr;
-    if ((type != GDT_Byte || isNarrow) && rule.palette == nullptr) {
+    if ((type != GDT_Byte || isNarrow(*first)) && rule.palette == nullptr) {
         if (const auto most = mostByTag(dataset, rule.colours)) {
             rule.bytePerValue = 255 / *most;
             notes.push_back(turnedToBytes(path, *most));
         } else {
-            rule.brightest = brightest(dataset, rule.colours);
+            rule.isByBrightest = true;
         }
     }
-    if (rule.alpha != 0 && dataset.GetRasterBand(rule.alpha)->GetRasterDataType() != GDT_Byte)
-        rule.alphaBytePerValue = 255 / opaque(*dataset.GetRasterBand(rule.alpha));
+    if (rule.alpha != 0) {
+        GDALRasterBand& alpha = *dataset.GetRasterBand(rule.alpha);
+        if (alpha.GetRasterDataType() != GDT_Byte || isNarrow(alpha))
+            rule.alphaBytePerValue = 255 / opaque(alpha);
+    }
     if (dataset.GetRasterCount() > 4 || (dataset.GetRasterCount() == 4 && rule.alpha == 0))
         notes.push_back(fmt::format("{}: bands {}, {} and {} of {} taken for red, green and blue",
                                     path, rule.colours[0], rule.colours[1], rule.colours[2],
@@ -179,10 +184,39 @@ public:
     CPLErr read(int i, int j, int columns, int rows, std::vector<std::uint8_t>& out) {
         const std::size_t count =
             static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+        if (readValues(i, j, columns, rows) != CE_None)
+            return CE_Failure;
         out.resize(kBands * count);
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::array<std::uint8_t, kBands> texel = turned(k, count);
+            for (std::size_t c = 0; c < kBands; ++c) out[c * count + k] = texel[c];
+        }
+        return CE_None;
+    }
+
+    /// Of all values that are not in a hole, at least 0. What cannot be read is left out: it is
+    /// told when it is asked for.
+    double brightest() {
+        int side = 0;
+        int blockRows = 0;
+        GetRasterBand(1)->GetBlockSize(&side, &blockRows);
+        int most = 0;
+        for (int j = 0; j < nRasterYSize; j += blockRows)
+            for (int i = 0; i < nRasterXSize; i += side)
+                most = std::max(most, brightest(i, j, std::min(side, nRasterXSize - i),
+                                                std::min(blockRows, nRasterYSize - j)));
+        return most;
+    }
+
+private:
+    int bands() const { return rule_.colours[0] == rule_.colours[1] ? 1 : 3; }
+
+    /// Into values_: colours, of grey only the first, and alpha or mask.
+    CPLErr readValues(int i, int j, int columns, int rows) {
+        const std::size_t count =
+            static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
         values_.resize(kBands * count);
-        const int bands = rule_.colours[0] == rule_.colours[1] ? 1 : 3;
-        for (int c = 0; c < bands; ++c)
+        for (int c = 0; c < bands(); ++c)
             if (readBand(rule_.colours[static_cast<std::size_t>(c)], i, j, columns, rows,
                          values_.data() + static_cast<std::size_t>(c) * count) != CE_None)
                 return CE_Failure;
@@ -191,11 +225,8 @@ public:
             return CE_Failure;
         if (rule_.hasMask && readMask(i, j, columns, rows, alpha) != CE_None)
             return CE_Failure;
-        for (std::size_t k = 0; k < count; ++k) turn(k, count, bands, out);
         return CE_None;
     }
-
-private:
     CPLErr readBand(int band, int i, int j, int columns, int rows, int* out) {
         return GDALRasterIO(GDALGetRasterBand(source_.get(), band), GF_Read, i, j, columns, rows,
                             out, columns, rows, GDT_Int32, 0, 0);
@@ -205,12 +236,28 @@ private:
                             GF_Read, i, j, columns, rows, out, columns, rows, GDT_Int32, 0, 0);
     }
 
-    void turn(std::size_t k, std::size_t count, int bands, std::vector<std::uint8_t>& out) const {
+    int brightest(int i, int j, int columns, int rows) {
+        if (readValues(i, j, columns, rows) != CE_None)
+            return 0;
+        const std::size_t count =
+            static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+        int most = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            if (turned(k, count)[3] == 0)
+                continue;
+            for (std::size_t c = 0; c < static_cast<std::size_t>(bands()); ++c)
+                if (const int value = values_[c * count + k]; value != rule_.nodata[c])
+                    most = std::max(most, value);
+        }
+        return most;
+    }
+
+    std::array<std::uint8_t, kBands> turned(std::size_t k, std::size_t count) const {
         bool isNodata = true;
         std::array<std::uint8_t, kBands> texel{0, 0, 0, 255};
         for (std::size_t c = 0; c < 3; ++c) {
-            const int value = values_[(bands == 1 ? 0 : c) * count + k];
-            isNodata = isNodata && rule_.nodata[c] && value == *rule_.nodata[c];
+            const int value = values_[(bands() == 1 ? 0 : c) * count + k];
+            isNodata = isNodata && value == rule_.nodata[c];
             texel[c] = toByte(value * rule_.bytePerValue);
         }
         if (rule_.palette != nullptr)
@@ -221,7 +268,7 @@ private:
             texel[3] = values_[3 * count + k] != 0 ? 255 : 0;
         if (isNodata)
             texel[3] = 0;
-        for (std::size_t c = 0; c < kBands; ++c) out[c * count + k] = texel[c];
+        return texel;
     }
 
     std::array<std::uint8_t, kBands> fromPalette(int index) const {
@@ -297,8 +344,10 @@ absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gd
     Georeference reference{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}};
     int columns = GDALGetRasterXSize(dataset.get());
     cutToOneTurn(file.isGeoreferenced ? crs : nullptr, reference, columns);
-    file.brightest = rule.brightest;
-    file.dataset.reset(GDALDataset::ToHandle(new ColourDataset(std::move(dataset), columns, rule)));
+    auto colours = std::make_unique<ColourDataset>(std::move(dataset), columns, rule);
+    if (rule.isByBrightest)
+        file.brightest = colours->brightest();
+    file.dataset.reset(GDALDataset::ToHandle(colours.release()));
     if (file.isGeoreferenced)
         GDALSetGeoTransform(file.dataset.get(), geoTransform(reference).data());
     return file;

@@ -20,8 +20,8 @@ struct ColourFile {
     Dataset dataset;
     bool isGeoreferenced = false;
     SpatialReference crs;  ///< null: none
-    /// The largest value, at least 0, of a picture of more than 8 bits that does not say what the
-    /// most may be: nothing may be read before turnToBytes().
+    /// The largest value outside of holes, at least 0, of a picture of more than 8 bits that does
+    /// not say what the most may be: nothing may be read before turnToBytes().
     std::optional<double> brightest;
     std::vector<std::string> notes;
 };

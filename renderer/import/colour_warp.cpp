@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/colour_warp.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -12,6 +13,7 @@
 #include <gdal_alg.h>
 #include <gdalwarper.h>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
@@ -63,16 +65,16 @@ fabric::Vec2 postOf(const fabric::Vec2& point, const terrain::GridFrame& frame) 
     return glm::inverse(pointFromPost) * (point - frame.origin);
 }
 
-/// How large pixels are that were looked at.
-struct Areas {
-    double sum = 0;  ///< posts squared
+/// The shorter sides of pixels that were looked at.
+struct Sides {
+    double squares = 0;  ///< summed, of posts
     int count = 0;
 
-    void add(double area) {
-        sum += area;
+    void add(double side) {
+        squares += side * side;
         ++count;
     }
-    double side() const { return std::sqrt(sum / count); }
+    double mean() const { return std::sqrt(squares / count); }
 };
 
 bool isWithin(const fabric::Vec2& at, const fabric::Vec2& low, const fabric::Vec2& high) {
@@ -94,7 +96,7 @@ absl::StatusOr<ColourPlace> placeOf(const ColourFile& file, const TexelGrid& gri
     if (!file.isGeoreferenced) {
         const fabric::Vec2 size(frame.columns, frame.rows);
         return ColourPlace{fabric::Vec2(-0.5), size - 0.5,
-                           std::sqrt(size.x * size.y / (columns * rows))};
+                           std::min(size.x / columns, size.y / rows)};
     }
     ASSIGN_OR_RETURN(const Transformer transformer, transformerOf(file, grid, gdal));
     // GDALSuggestedWarpOutput2 takes a picture that needs no reprojection for a square.
@@ -105,18 +107,25 @@ absl::StatusOr<ColourPlace> placeOf(const ColourFile& file, const TexelGrid& gri
         post = postOf({column, row}, frame);
         return isDone != 0 && std::isfinite(post.x) && std::isfinite(post.y);
     };
-    Areas anywhere;
-    Areas onTerrain;  // which may be a small part of a picture that is the finer the farther away
+    const auto pixelAt = [&](const fabric::Vec2& post, fabric::Vec2& pixel) {
+        pixel = frame.origin + frame.perColumn * post.x + frame.perRow * post.y;
+        double z = 0;
+        int isDone = 0;
+        GDALGenImgProjTransform(transformer.get(), TRUE, 1, &pixel.x, &pixel.y, &z, &isDone);
+        return isDone != 0 && isWithin(pixel, fabric::Vec2(0), {columns, rows});
+    };
+    Sides anywhere;
+    Sides onTerrain;  // which may be a small part of a picture that is the finer the farther away
     const fabric::Vec2 last(frame.columns - 1, frame.rows - 1);
     const auto lookAt = [&](double column, double row, const fabric::Vec2& post) {
         fabric::Vec2 right;
         fabric::Vec2 below;
         if (!postAt(column + 1, row, right) || !postAt(column, row + 1, below))
             return;
-        const double area = std::abs(glm::determinant(glm::dmat2(right - post, below - post)));
-        anywhere.add(area);
+        const double side = std::min(glm::distance(right, post), glm::distance(below, post));
+        anywhere.add(side);
         if (isWithin(post, fabric::Vec2(0), last))
-            onTerrain.add(area);
+            onTerrain.add(side);
     };
     constexpr int kSteps = 20;
     ColourPlace place;
@@ -127,19 +136,18 @@ absl::StatusOr<ColourPlace> placeOf(const ColourFile& file, const TexelGrid& gri
             const double column = columns * i / kSteps;
             const double row = rows * j / kSteps;
             fabric::Vec2 post;
+            fabric::Vec2 pixel;
             if (postAt(column, row, post)) {
                 place.low = glm::min(place.low, post);
                 place.high = glm::max(place.high, post);
                 lookAt(column, row, post);
+                // Poles are on its rim, and at any column.
+                const bool isInside = i > 0 && i < kSteps && j > 0 && j < kSteps;
+                if (isInside && isWithin(post, fabric::Vec2(0), last) && !pixelAt(post, pixel))
+                    place.isCutOff = true;
             }
             const fabric::Vec2 there = last * fabric::Vec2(i, j) / static_cast<double>(kSteps);
-            const fabric::Vec2 point =
-                frame.origin + frame.perColumn * there.x + frame.perRow * there.y;
-            fabric::Vec2 pixel = point;
-            double z = 0;
-            int isDone = 0;
-            GDALGenImgProjTransform(transformer.get(), TRUE, 1, &pixel.x, &pixel.y, &z, &isDone);
-            if (isDone != 0 && isWithin(pixel, fabric::Vec2(0), {columns, rows}))
+            if (pixelAt(there, pixel))
                 lookAt(pixel.x, pixel.y, there);
         }
     if (anywhere.count == 0)
@@ -153,7 +161,7 @@ absl::StatusOr<ColourPlace> placeOf(const ColourFile& file, const TexelGrid& gri
     const fabric::Vec2 margin = (place.high - place.low) / static_cast<double>(kSteps * kSteps);
     place.low -= margin;
     place.high += margin;
-    place.pixelPosts = (onTerrain.count > 0 ? onTerrain : anywhere).side();
+    place.pixelPosts = (onTerrain.count > 0 ? onTerrain : anywhere).mean();
     return place;
 }
 

@@ -25,7 +25,10 @@ struct TexelGrid {
 struct ColourPlace {
     fabric::Vec2 low;  ///< posts; all of the picture is between these
     fabric::Vec2 high;
-    double pixelPosts = 1;  ///< side of a pixel
+    double pixelPosts = 1;  ///< the shorter side of a pixel
+    /// Some of what lies on the terrain is not found from there, as where a map goes on past 180
+    /// degrees.
+    bool isCutOff = false;
 };
 
 /// Errors: InvalidArgument (no way from the file's CRS to the terrain's).

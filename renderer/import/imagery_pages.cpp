@@ -154,16 +154,20 @@ std::vector<fabric::Rgba> halved(const Tile& tile, const terrain::TexturePyramid
     return half;
 }
 
+bool areHoles(const std::vector<fabric::Rgba>& texels) {
+    return std::ranges::count(texels, fabric::Rgba{0, 0, 0, 0}) == std::ssize(texels);
+}
+
 /// Turns a tile's texels into what is made of them. Of small pictures over a large terrain nearly
 /// all tiles are empty.
 void finish(Tile& tile, const terrain::TexturePyramid& pyramid) {
-    constexpr fabric::Rgba kHole{0, 0, 0, 0};
-    const bool isEmpty = std::ranges::count(tile.texels, kHole) == std::ssize(tile.texels);
-    if (tile.id != pyramid.top())
-        tile.made.half = isEmpty ? std::vector(OwnTexels(tile, pyramid).halfTexels(), kHole)
-                                 : halved(tile, pyramid);
-    if (!isEmpty)
+    if (!areHoles(tile.texels)) {
+        if (tile.id != pyramid.top())
+            tile.made.half = halved(tile, pyramid);
+        if (areHoles(tile.made.half))
+            tile.made.half = {};
         TileEncoder(tile, pyramid).encode();
+    }
     tile.texels = {};
 }
 
@@ -212,8 +216,8 @@ public:
             RETURN_IF_ERROR(makeLevel(level, stages));
         if (covered_ == 0)
             return absl::InvalidArgumentError(fmt::format(
-                "{}: the terrain lies where no picture has a pixel (alpha 0 or nodata); check "
-                "their coordinates and CRS (gdalinfo)",
+                "{}: the terrain lies where no picture has a pixel (alpha below half, or nodata); "
+                "check their coordinates, CRS and alpha (gdalinfo)",
                 pictures_.names));
         imagery_.psnrDb = psnrDb(lossSquares_, covered_);
         imagery_.coveredTexels = covered_;

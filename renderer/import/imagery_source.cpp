@@ -22,7 +22,8 @@ namespace {
 using terrain::TexelRect;
 using terrain::TexturePyramid;
 
-/// A texel may be this many octaves larger than the finest picture's pixel: 2^(1/4).
+/// A texel may be this many octaves larger than the shorter side of the finest picture's
+/// pixel: 2^(1/4).
 constexpr double kOctavesOfSlack = 0.25;
 constexpr double kEquallyFine = 0.01;
 
@@ -173,6 +174,11 @@ public:
         else if (!file.crs && grid_.crs)
             notes_.push_back(fmt::format("{} has no CRS: taken to be in the terrain's", path));
         ASSIGN_OR_RETURN(const ColourPlace place, placeOf(file, grid_, gdal_));
+        if (place.isCutOff)
+            notes_.push_back(fmt::format(
+                "{}: a part of it is left out, as where a map goes on past 180 degrees; cut it "
+                "there (gdal_translate -projwin) and move what lies beyond by a turn (-a_ullr)",
+                path));
         const fabric::Vec2 last(grid_.frame.columns - 1, grid_.frame.rows - 1);
         names_ += (names_.empty() ? "" : ", ") + path;
         const bool overlaps =
@@ -194,10 +200,7 @@ public:
         RETURN_IF_ERROR(turnAllToBytes());
         for (const Layer& layer : layers_)
             notes_.insert(notes_.end(), layer.file.notes.begin(), layer.file.notes.end());
-        std::reverse(layers_.begin(), layers_.end());
-        std::stable_sort(layers_.begin(), layers_.end(), [](const Layer& a, const Layer& b) {
-            return a.place.pixelPosts < b.place.pixelPosts * (1 - kEquallyFine);
-        });
+        sortByRank();
         const double octaves = -std::log2(layers_.front().place.pixelPosts) - kOctavesOfSlack;
         const int shift = std::max(static_cast<int>(std::ceil(octaves)), coarsestShift());
         if (!TexturePyramid::isPossible(grid_.frame.columns, grid_.frame.rows, shift))
@@ -231,11 +234,28 @@ private:
                 any = &layer.file;
             }
         if (any != nullptr && !(most > 0))
-            return invalid(any->path, "holds no value above 0; is it the picture you mean?");
+            return invalid(any->path, "has no pixel above 0; is it the picture you mean?");
         for (Layer& layer : layers_)
             if (layer.file.brightest)
                 turnToBytes(layer.file, most);
         return absl::OkStatus();
+    }
+
+    /// The finest first; of those hardly coarser than the finest of them, the one named last.
+    void sortByRank() {
+        std::vector<double> sizes;
+        for (const Layer& layer : layers_) sizes.push_back(layer.place.pixelPosts);
+        std::sort(sizes.begin(), sizes.end());
+        std::vector<double> finest;  // of each group
+        for (const double size : sizes)
+            if (finest.empty() || finest.back() < size * (1 - kEquallyFine))
+                finest.push_back(size);
+        const auto group = [&](const Layer& layer) {
+            return std::upper_bound(finest.begin(), finest.end(), layer.place.pixelPosts);
+        };
+        std::reverse(layers_.begin(), layers_.end());
+        std::stable_sort(layers_.begin(), layers_.end(),
+                         [&](const Layer& a, const Layer& b) { return group(a) < group(b); });
     }
 
     /// Of texels no larger than the terrain, so that one has its middle there.

@@ -37,10 +37,11 @@ struct OpenImagery {
 /// Opens any pictures GDAL reads (see openColourFile) for a terrain on `frame`, in metres of
 /// `crsWkt` ("" for none). Pixels are read and warped, bilinearly, when texels are asked for.
 ///
-/// Texels are a power of two smaller or larger than posts: at most 2^(1/4) of the finest picture's
-/// pixel. Where pictures overlap, the finest that has no hole there wins, among equally fine ones
-/// the one named last. A picture without a georeference is stretched over the whole terrain, north
-/// up; one without a CRS is taken to be in the terrain's.
+/// Texels are a power of two smaller or larger than posts: at most 2^(1/4) of the shorter side of
+/// the finest picture's pixels, as they are on average on the terrain. Where pictures overlap, the
+/// finest that has no hole there wins, among those within 1 % of the finest of them the one named
+/// last. A picture without a georeference is stretched over the whole terrain, north up; one
+/// without a CRS is taken to be in the terrain's.
 ///
 /// Errors, naming the file: NotFound, InvalidArgument (no picture, not to be brought to the
 /// terrain, none overlaps it), ResourceExhausted (more texels than an .eyt holds).

@@ -26,7 +26,7 @@ using terrain::PageRecord;
 /// How a part begins; its pieces follow, then the table: a PageRecord for each.
 struct Header {
     std::array<char, 8> magic = {'E', 'Y', 'R', 'I', 'E', 'P', 'R', 'T'};
-    std::uint64_t format = 2;
+    std::uint64_t format = 3;
     PartIdentity identity;
     std::uint64_t shard = 0;
     float minHeight = 0;
@@ -337,14 +337,15 @@ absl::StatusOr<TexturePiece> PartFile::readTexture(std::uint32_t texture,
     RETURN_IF_ERROR(read(piece, bytes.data()));
     TextureHeader header;
     std::memcpy(&header, bytes.data(), sizeof header);
-    const std::size_t halfBytes = halfTexels * sizeof(fabric::Rgba);
-    if (header.halfTexels != halfTexels || bytes.size() < sizeof header + halfBytes)
+    const std::uint64_t halfBytes = header.halfTexels * sizeof(fabric::Rgba);
+    if ((header.halfTexels != halfTexels && header.halfTexels != 0) ||
+        bytes.size() < sizeof header + halfBytes)
         return damaged(fmt::format("texture {} has the wrong size", texture));
     const std::byte* const half = bytes.data() + sizeof header;
     TexturePiece result{
-        header.lossSquares, header.coveredTexels, std::vector<fabric::Rgba>(halfTexels),
+        header.lossSquares, header.coveredTexels, std::vector<fabric::Rgba>(header.halfTexels),
         std::vector<std::byte>(half + halfBytes, half + bytes.size() - sizeof header)};
-    if (halfTexels > 0)
+    if (halfBytes > 0)
         std::memcpy(result.half.data(), half, halfBytes);
     return result;
 }

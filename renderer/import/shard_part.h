@@ -52,7 +52,7 @@ using PageTiles = std::array<terrain::TileRecord,
 struct TexturePiece {
     std::uint64_t lossSquares = 0;    ///< summed squared differences of BC1, of covered texels
     std::uint64_t coveredTexels = 0;  ///< of its own
-    std::vector<fabric::Rgba> half;   ///< what it becomes one level up; empty where there is none
+    std::vector<fabric::Rgba> half;   ///< what it becomes one level up; empty: nothing, or holes
     std::vector<std::byte> page;      ///< empty where all is a hole
 };
 
@@ -112,7 +112,7 @@ public:
     absl::Status readHeights(std::uint32_t tile, float* out) const;
     absl::Status readMeasured(std::uint32_t tile, std::uint8_t* out) const;
     absl::StatusOr<std::vector<std::uint32_t>> readPage(std::uint32_t page, PageTiles& tiles) const;
-    /// With as many texels one level up as `halfTexels` says.
+    /// With as many texels one level up as `halfTexels` says, or none.
     absl::StatusOr<TexturePiece> readTexture(std::uint32_t texture, std::size_t halfTexels) const;
 
     /// Reads all there is.

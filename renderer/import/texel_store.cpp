@@ -25,6 +25,9 @@ std::uint64_t TexelStore::placeOf(int level, std::int64_t pieceX, std::int64_t p
 }
 
 void TexelStore::write(const TextureId& tile, std::span<const fabric::Rgba> texels) {
+    const std::uint64_t there = placeOf(tile.level + 1, tile.x, tile.y);
+    if (texels.empty())
+        return scratch_.clear(there, kPieceBytes);
     const auto half = [](std::int64_t all, std::int32_t place) {
         const std::int64_t own = std::min<std::int64_t>(
             terrain::kTextureSide, all - std::int64_t{place} * terrain::kTextureSide);
@@ -37,7 +40,7 @@ void TexelStore::write(const TextureId& tile, std::span<const fabric::Rgba> texe
     auto* const out = reinterpret_cast<fabric::Rgba*>(piece.get());
     for (std::size_t row = 0; row < rows; ++row)
         std::copy_n(texels.data() + row * columns, columns, out + row * kPieceSide);
-    scratch_.write(placeOf(tile.level + 1, tile.x, tile.y), piece, kPieceBytes);
+    scratch_.write(there, piece, kPieceBytes);
 }
 
 void TexelStore::read(int level, const TexelRect& window, std::span<fabric::Rgba> out) const {

@@ -19,7 +19,8 @@ public:
     /// Reserves its room; keeps references.
     TexelStore(const terrain::TexturePyramid& pyramid, terrain::Scratch& scratch);
 
-    /// Stores what `tile` becomes one level up: half as many texels each way, rounded up.
+    /// Stores what `tile` becomes one level up: half as many texels each way, rounded up;
+    /// none where all of them are holes.
     /// Precondition: `tile` is below the top.
     void write(const terrain::TextureId& tile, std::span<const fabric::Rgba> texels);
 

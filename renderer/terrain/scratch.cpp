@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/terrain/scratch.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <map>
@@ -133,6 +134,18 @@ void Scratch::write(std::uint64_t place, Piece data, std::size_t bytes) {
     const std::lock_guard lock(shard.mutex);
     drop(shard, place);
     keep(shard, {place, std::move(data), bytes, true});
+}
+
+/// A file that was there before may hold something else.
+void Scratch::clear(std::uint64_t place, std::size_t bytes) {
+    forget(place);
+    const std::shared_ptr<std::byte[]> data = newPiece(bytes);
+    const std::span<std::byte> all(data.get(), bytes);
+    load(place, all);
+    if (std::ranges::count(all, std::byte{0}) == std::ssize(all))
+        return;
+    std::ranges::fill(all, std::byte{0});
+    write(place, data, bytes);
 }
 
 void Scratch::forget(std::uint64_t place) {

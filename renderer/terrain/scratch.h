@@ -46,6 +46,9 @@ public:
 
     Piece read(std::uint64_t place, std::size_t bytes);
     void write(std::uint64_t place, Piece data, std::size_t bytes);
+    /// Writes zeros, which take room neither in memory nor, where it has never held anything else,
+    /// in the file.
+    void clear(std::uint64_t place, std::size_t bytes);
     /// Leaves out of memory, and of what is still to be stored, a piece that nobody reads again.
     void forget(std::uint64_t place);
     /// Brings every piece to the disk, not only the ones that did not fit. Meanwhile other threads

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <gdal_priv.h>
+#include <gdal_utils.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -205,6 +206,113 @@ TEST_F(ImageryImport, CutOffPictureIsDataLossAndLeavesNothing) {
     EXPECT_FALSE(status.ok());
     EXPECT_THAT(status.ToString(), HasSubstr(path));
     EXPECT_THAT(folder_.files(), testing::Not(testing::Contains(HasSubstr("with.eyt"))));
+}
+
+/// Of 40 x 40 pixels around the slope of 30 x 30 posts.
+GDALDatasetUniquePtr createAround(const std::string& path, GDALDataType type,
+                                  const std::vector<const char*>& options) {
+    GDALAllRegister();
+    CPLStringList list;
+    for (const char* option : options) list.AddString(option);
+    GDALDatasetUniquePtr file(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+        path.c_str(), 40, 40, 4, type, list.List()));
+    std::array<double, 6> transform{kWest - 50, 10, 0, kSouth + 350, 0, -10};
+    file->SetGeoTransform(transform.data());
+    OGRSpatialReference crs;
+    crs.importFromEPSG(test::kUtm33);
+    file->SetSpatialRef(&crs);
+    return file;
+}
+
+/// What is hidden is as bright as can be.
+TEST_F(ImageryImport, TurnsValuesTo8BitsByTheBrightestThatIsNotHidden) {
+    constexpr int kSide = 40;
+    {
+        const auto file =
+            createAround(folder_.path("hidden.tif"), GDT_UInt16, {"ALPHA=YES", "PHOTOMETRIC=RGB"});
+        constexpr std::array<std::uint16_t, 4> kValues = {3000, 2000, 1000, 65535};
+        for (int band = 1; band <= 4; ++band) {
+            std::vector<std::uint16_t> values(kSide * kSide,
+                                              kValues[static_cast<std::size_t>(band - 1)]);
+            for (std::size_t k = 0; k < values.size(); ++k)
+                if (k % kSide < 20)
+                    values[k] = band == 4 ? 0 : 65535;
+            ASSERT_EQ(
+                file->GetRasterBand(band)->RasterIO(GF_Write, 0, 0, kSide, kSide, values.data(),
+                                                    kSide, kSide, GDT_UInt16, 0, 0, nullptr),
+                CE_None);
+        }
+    }
+    const auto band = [](int number, const std::string& more) {
+        return fmt::format(
+            "<VRTRasterBand dataType=\"UInt16\" band=\"{0}\">{1}<SimpleSource>"
+            "<SourceFilename relativeToVRT=\"1\">hidden.tif</SourceFilename>"
+            "<SourceBand>{0}</SourceBand></SimpleSource></VRTRasterBand>",
+            number, more);
+    };
+    const std::string mask = "<MaskBand>" + band(4, "") + "</MaskBand>";
+    std::ofstream(folder_.path("masked.vrt"))
+        << "<VRTDataset rasterXSize=\"40\" rasterYSize=\"40\"><SRS>EPSG:32633</SRS><GeoTransform>"
+        << fmt::format("{}, 10, 0, {}, 0, -10", kWest - 50, kSouth + 350) << "</GeoTransform>"
+        << band(1, mask) << band(2, mask) << band(3, mask) << "</VRTDataset>";
+    for (const char* name : {"hidden.tif", "masked.vrt"}) {
+        SCOPED_TRACE(name);
+        const auto file = imported(test::slope(30, 30, 10), {folder_.path(name)});
+        ASSERT_NE(file, nullptr);
+        expectColours(*file, 10, [](double x, double) {
+            return x < kWest + 150 ? Rgba{0, 0, 0, 0} : Rgba{255, 170, 85, 255};
+        });
+    }
+}
+
+TEST_F(ImageryImport, KnowsWhatIsOpaqueInLessThan8Bits) {
+    {
+        const auto file = createAround(folder_.path("narrow.tif"), GDT_Byte,
+                                       {"NBITS=4", "ALPHA=YES", "PHOTOMETRIC=RGB"});
+        for (int band = 1; band <= 3; ++band) file->GetRasterBand(band)->Fill(10);
+        file->GetRasterBand(4)->Fill(15);
+    }
+    const auto file = imported(test::slope(30, 30, 10), {folder_.path("narrow.tif")});
+    ASSERT_NE(file, nullptr);
+    expectColours(
+        *file, 10,
+        [](double, double) {
+            return Rgba{170, 170, 170, 255};
+        },
+        4);
+}
+
+/// Of 8 bits GDAL turns them into red, green and blue itself.
+TEST_F(ImageryImport, OfPrintersColoursIn16BitsIsAnErrorWithARemedy) {
+    const std::string path = folder_.path("cmyk.tif");
+    {
+        const auto file = createAround(path, GDT_UInt16, {"PHOTOMETRIC=CMYK"});
+        file->GetRasterBand(1)->Fill(0);
+        file->GetRasterBand(2)->Fill(65535);
+        file->GetRasterBand(3)->Fill(65535);
+        file->GetRasterBand(4)->Fill(0);
+    }
+    const absl::Status status = importError(test::slope(30, 30, 10), {path});
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(status.ToString(), HasSubstr("cmyk.tif: its band 1 is Cyan"));
+    const std::string remedy = "-ot Byte -scale 0 65535 0 255 -co PHOTOMETRIC=CMYK";
+    EXPECT_THAT(status.ToString(), HasSubstr("gdal_translate " + remedy));
+    {
+        CPLStringList words(CSLTokenizeString(remedy.c_str()));
+        GDALTranslateOptions* const options = GDALTranslateOptionsNew(words.List(), nullptr);
+        const GDALDatasetUniquePtr file(GDALDataset::Open(path.c_str()));
+        GDALClose(GDALTranslate(folder_.path("byte.tif").c_str(), GDALDataset::ToHandle(file.get()),
+                                options, nullptr));
+        GDALTranslateOptionsFree(options);
+    }
+    const auto file = imported(test::slope(30, 30, 10), {folder_.path("byte.tif")});
+    ASSERT_NE(file, nullptr);
+    expectColours(
+        *file, 10,
+        [](double, double) {
+            return Rgba{255, 0, 0, 255};
+        },
+        4);
 }
 
 /// One half of a terrain, of one value of 16 bits.

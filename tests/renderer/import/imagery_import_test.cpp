@@ -2,14 +2,20 @@
 // What becomes of pictures in a file.
 #include "tests/renderer/import/imagery_import.h"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <utility>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include "renderer/import/shard_part.h"
 #include "renderer/import/terrain_import.h"
+#include "renderer/import/terrain_shard.h"
 
 namespace eyrie::import {
 namespace {
@@ -67,13 +73,33 @@ TEST_F(ImageryImport, TakesTheFinestAndThenTheLastPicture) {
     });
 }
 
+/// Each is within 1 % of the next, the coarsest 2 % coarser than the finest.
+TEST_F(ImageryImport, TakesOneOfTheFinestOfManyNearlyEqualPictures) {
+    std::vector<std::string> paths;
+    std::vector<double> pixels;
+    for (int k = 0; k < 5; ++k) pixels.push_back(10 * std::pow(0.995, 4 - k));
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        const auto grey = static_cast<std::uint8_t>(40 + 30 * k);
+        paths.push_back(write(over(300, 300, pixels[k],
+                                   [=](double, double) {
+                                       return Rgba{grey, grey, grey, 255};
+                                   }),
+                              fmt::format("{}.tif", k)));
+    }
+    const auto file = imported(test::slope(30, 30, 10), paths);
+    ASSERT_NE(file, nullptr);
+    expectColours(*file, 10, [](double, double) { return Rgba{100, 100, 100, 255}; });
+}
+
 TEST_F(ImageryImport, OfHolesAloneIsAnError) {
-    const auto holes = [](double, double) { return Rgba{1, 2, 3, 0}; };
-    const absl::Status status =
-        importError(test::slope(11, 11, 10), {write(over(100, 100, 10, holes))});
-    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
-    EXPECT_THAT(status.ToString(), HasSubstr("no picture has a pixel"));
-    EXPECT_THAT(folder_.files(), testing::Not(testing::Contains(HasSubstr("with.eyt"))));
+    for (const std::uint8_t alpha : {std::uint8_t{0}, std::uint8_t{120}}) {
+        const auto holes = [=](double, double) { return Rgba{1, 2, 3, alpha}; };
+        const absl::Status status =
+            importError(test::slope(11, 11, 10), {write(over(100, 100, 10, holes))});
+        EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+        EXPECT_THAT(status.ToString(), HasSubstr("no picture has a pixel (alpha below half"));
+        EXPECT_THAT(folder_.files(), testing::Not(testing::Contains(HasSubstr("with.eyt"))));
+    }
 }
 
 /// The blocks beyond a tile's sides are its neighbours' own, so filtering sees no border.
@@ -161,6 +187,69 @@ TEST_F(ImageryImport, CalledOffLeavesNoFileAndGoesOnLater) {
     EXPECT_THAT(stages, testing::ElementsAre("checking", "imagery"));
     EXPECT_TRUE(terrain::EytFile::open(out).ok());
     EXPECT_THAT(folder_.files(), testing::Not(testing::Contains(HasSubstr("partial"))));
+}
+
+/// Of 1024 tiles.
+class ImageryOfASmallPart : public ImageryImport {
+protected:
+    static constexpr double kExtent = 256 * 64;
+
+    std::string writeSmall(double west, double south) {
+        Picture picture = over(0, 0, 1, [](double, double) { return Rgba{60, 160, 90, 255}; });
+        picture.west = kWest + west;
+        picture.north = kSouth + south + 100;
+        picture.columns = picture.rows = 100;
+        return write(picture);
+    }
+
+    static terrain::HeightGrid grid() { return test::slope(257, 257, 64); }
+};
+
+TEST_F(ImageryOfASmallPart, TakesLittleScratch) {
+    ASSERT_NE(imported(grid(), {}), nullptr);  // writes the DEM
+    const std::string out = folder_.path("out.eyt");
+    std::int64_t most = 0;
+    const ImportControl control{[&](std::string_view, double) {
+                                    struct stat status {};
+                                    if (stat((out + ".scratch").c_str(), &status) == 0)
+                                        most = std::max(most, std::int64_t{status.st_blocks} * 512);
+                                },
+                                {}};
+    const TerrainImportOptions how{.memoryBytes = 1, .imagery = {writeSmall(0, 0)}};
+    ASSERT_TRUE(importTerrain({folder_.path("dem.tif")}, out, how, control).ok());
+    EXPECT_GT(most, 0);
+    EXPECT_LT(most, 4 << 20);
+}
+
+TEST_F(ImageryOfASmallPart, TakesLittleOfAShardsPart) {
+    TerrainImportOptions how{.imagery = {writeSmall(0, 0)}};
+    const auto file = test::importedWith(grid(), how.imagery, folder_);
+    ASSERT_TRUE(file.ok()) << file.status();
+    const std::string out = folder_.path("out.eyt");
+    ASSERT_TRUE(importTerrainShard({folder_.path("dem.tif")}, out, {0, 1}, how, {}).ok());
+    EXPECT_LT(std::filesystem::file_size(partPath(out, {0, 1})), 4U << 20);
+    how.mergesParts = true;
+    ASSERT_TRUE(importTerrain({folder_.path("dem.tif")}, out, how, {}).ok());
+    EXPECT_TRUE(test::contents(out) == test::contents(folder_.path("with.eyt")));
+}
+
+TEST_F(ImageryOfASmallPart, TakesNothingFromTheScratchOfAnother) {
+    const auto east = test::importedWith(grid(), {writeSmall(kExtent - 200, 0)}, folder_);
+    ASSERT_TRUE(east.ok()) << east.status();
+    const std::string whole = test::contents(folder_.path("with.eyt"));
+    const std::string out = folder_.path("out.eyt");
+    TerrainImportOptions how{.memoryBytes = 1, .imagery = {writeSmall(0, kExtent - 200)}};
+    std::stop_source stop;
+    const ImportControl control{[&](std::string_view stage, double fraction) {
+                                    if (stage == "imagery" && fraction > 0.95)
+                                        stop.request_stop();
+                                },
+                                stop.get_token()};
+    ASSERT_EQ(importTerrain({folder_.path("dem.tif")}, out, how, control).status().code(),
+              absl::StatusCode::kCancelled);
+    writeSmall(kExtent - 200, 0);
+    ASSERT_TRUE(importTerrain({folder_.path("dem.tif")}, out, how, {}).ok());
+    EXPECT_TRUE(test::contents(out) == whole);
 }
 
 TEST_F(ImageryImport, DamagedTilesAreDataLoss) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where pictures lie on a terrain.
+#include <array>
 #include <cmath>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include <gdal_priv.h>
 #include <gmock/gmock.h>
@@ -120,7 +122,22 @@ TEST_F(ImageryImport, HasTexelsAsFineAsAPictureOfTheEarthHasPixelsThere) {
     // 657 by 928 m at 45 degrees.
     const auto file = imported(test::slope(257, 257, 100), {folder_.path("earth.vrt")});
     ASSERT_NE(file, nullptr);
-    EXPECT_LE(file->index().imagery->pyramid.texelPosts(0), 1.19 * std::sqrt(6.57 * 9.28));
+    EXPECT_LE(file->index().imagery->pyramid.texelPosts(0), 1.19 * 6.57);
+}
+
+TEST_F(ImageryImport, HasTexelsAsFineAsTheShorterSideOfPixels) {
+    terrain::HeightGrid grid = test::slope(200, 200, 10);
+    grid.origin = {kWest, 7'767'000};  // 70 degrees north, where a degree is 38 by 111.5 km
+    Picture picture{.epsg = 4326,
+                    .west = 14.95,
+                    .north = 70.04,
+                    .pixel = 58 / 111.5e3,
+                    .columns = 300,
+                    .rows = 150,
+                    .colour = waves(1)};
+    const auto file = imported(grid, {write(picture)});
+    ASSERT_NE(file, nullptr);
+    EXPECT_EQ(file->index().imagery->pyramid.texelPosts(0), 2);
 }
 
 /// Hard case 26: a picture of all longitudes over a terrain with the pole in it. Expected is the
@@ -163,6 +180,7 @@ TEST_F(HardCase26, APictureAroundThePoleCoversEveryTexel) {
     const std::string out = folder_.path("pole.eyt");
     const auto report = import::importTerrain({folder_.path("pole.tif")}, out, options, {});
     ASSERT_TRUE(report.ok()) << report.status();
+    EXPECT_THAT(report->notes, testing::Not(testing::Contains(HasSubstr("left out"))));
     const auto file = *terrain::EytFile::open(out);
     const test::TexelImage image = test::wholeLevel(*file, 0);
     const double texel = kPost * file->index().imagery->pyramid.texelPosts(0);
@@ -216,6 +234,7 @@ TEST_F(HardCase26, APictureOfTheEarthCoversATerrainOfTheEarth) {
         const std::string out = folder_.path("earth.eyt");
         const auto report = import::importTerrain({folder_.path("earth.tif")}, out, options, {});
         ASSERT_TRUE(report.ok()) << report.status();
+        EXPECT_THAT(report->notes, testing::Not(testing::Contains(HasSubstr("left out"))));
         const auto file = *terrain::EytFile::open(out);
         const test::TexelImage image = test::wholeLevel(*file, 0);
         constexpr double kMetresPerDegree = 6378137 * M_PI / 180;
@@ -237,6 +256,40 @@ TEST_F(HardCase26, APictureOfTheEarthCoversATerrainOfTheEarth) {
         EXPECT_EQ(open, 0) << "of " << image.texels.size();
         EXPECT_EQ(wrong, 0) << "of " << image.texels.size();
     }
+}
+
+TEST_F(ImageryImport, SaysThatAMapThatGoesOnPast180DegreesIsCutOffThere) {
+    GDALAllRegister();
+    const std::string dem = folder_.path("dem60.tif");
+    {
+        const GDALDatasetUniquePtr file(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+            dem.c_str(), 100, 100, 1, GDT_Float32, nullptr));
+        std::array<double, 6> transform{829'000, 100, 0, 105'000, 0, -100};  // 180 E is at 834 km
+        OGRSpatialReference utm;
+        utm.importFromEPSG(32660);
+        file->SetGeoTransform(transform.data());
+        file->SetSpatialRef(&utm);
+        file->GetRasterBand(1)->Fill(100);
+    }
+    constexpr double kHalfTurn = 20'037'508.34;
+    const auto notesWith = [&](double west, int columns) {
+        TerrainImportOptions options;
+        options.imagery = {write({.epsg = 3857,
+                                  .west = west,
+                                  .north = 116'000,
+                                  .pixel = 60,
+                                  .columns = columns,
+                                  .rows = 400,
+                                  .colour = waves(1000)})};
+        const auto report = importTerrain({dem}, folder_.path("out.eyt"), options, {});
+        EXPECT_TRUE(report.ok()) << report.status();
+        return report.ok() ? report->notes : std::vector<std::string>();
+    };
+    const auto isCutOff = testing::Contains(HasSubstr("picture.tif: a part of it is left out"));
+    EXPECT_THAT(notesWith(kHalfTurn - 12'000, 400), isCutOff);
+    EXPECT_THAT(notesWith(-kHalfTurn - 12'000, 400), isCutOff);
+    EXPECT_THAT(notesWith(kHalfTurn - 12'000, 200), testing::Not(isCutOff));
+    EXPECT_THAT(notesWith(-kHalfTurn, 200), testing::Not(isCutOff));
 }
 
 TEST_F(ImageryImport, StretchesAPictureWithoutAPlaceOverTheWholeTerrain) {

@@ -64,6 +64,24 @@ TEST(Scratch, TouchesNoDiskForWhatFits) {
     EXPECT_FALSE(std::filesystem::exists(path));
 }
 
+TEST(Scratch, TakesNoRoomForZerosAndLeavesNothingOfAnothersThere) {
+    const std::string path = freshPath();
+    for (const bool isAnothers : {true, false}) {
+        Scratch scratch(path, 0);
+        const std::uint64_t used = scratch.reserve(5000);
+        const std::uint64_t unused = scratch.reserve(5000);
+        if (isAnothers)
+            scratch.write(used, pieceOf(5000, 3), 5000);
+        else
+            for (const std::uint64_t place : {used, unused}) scratch.clear(place, 5000);
+        ASSERT_TRUE(scratch.flush().ok());
+        EXPECT_EQ(std::filesystem::file_size(path), used + 5000);
+        EXPECT_EQ(static_cast<int>(scratch.read(used, 5000)[5]), isAnothers ? 3 : 0);
+        EXPECT_EQ(static_cast<int>(scratch.read(unused, 5000)[5]), 0);
+    }
+    std::filesystem::remove(path);
+}
+
 TEST(Scratch, StoresNoPieceThatIsForgotten) {
     const std::string path = freshPath();
     Scratch scratch(path, 1 << 20);
