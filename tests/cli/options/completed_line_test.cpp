@@ -205,6 +205,13 @@ TEST_F(Program, PrintsEveryValueWithItsOriginAsAFileThatSaysTheSame) {
     EXPECT_THAT(urls_, ElementsAre("https://a/"));
 }
 
+TEST_F(Program, NamesTheVariablesOfAllCommands) {
+    const Arguments variables = variablesOf(app_);
+    for (const char* name : {"EYRIE_OPTIONS", "EYRIE_ALLOW_URL", "EYRIE_QUIET", "EYRIE_OUTPUT"})
+        EXPECT_THAT(variables, testing::Contains(name));
+    EXPECT_THAT(variables, testing::Not(testing::Contains("EYRIE_HELP")));
+}
+
 TEST(DidYouMean, ProposesOnlyWhatIsNear) {
     EXPECT_EQ(didYouMean("lisen", {"listen", "quiet"}), ", did you mean 'listen'?");
     EXPECT_EQ(didYouMean("verbosity", {"listen", "quiet"}), "");
