@@ -194,7 +194,7 @@ TEST_F(Program, PrintsEveryValueWithItsOriginAsAFileThatSaysTheSame) {
     ASSERT_TRUE(run({"serve", "dem.tif", "--options", file_, "--allow-url", "https://a/"}).ok());
     const std::string printed = printedConfig(line_);
     EXPECT_THAT(printed, HasSubstr("[serve]\n"));
-    EXPECT_THAT(printed, HasSubstr("listen = \"default:1\"  # default\n"));
+    EXPECT_THAT(printed, HasSubstr("\n# listen = \"default:1\"  # default\n"));
     EXPECT_THAT(printed, HasSubstr("renderers = 3  # EYRIE_RENDERERS\n"));
     EXPECT_THAT(printed, HasSubstr("quiet = true  # " + file_ + "\n"));
     EXPECT_THAT(printed, HasSubstr("allow-url = \"https://a/\"  # the command line\n"));
