@@ -183,12 +183,14 @@ void addMeasuringOptions(CLI::App& command, Options& options) {
         ->capture_default_str();
     command.add_option("--tau", options.taus, "Screen-space errors to allow, in pixels")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->capture_default_str();
     command
         .add_option("--budget-ms", options.budgets,
                     "Frame times to hold, in ms, by drawing coarser than the least --tau as needed;"
                     " then taus only where they are given")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command.add_option("--size", options.size, "Of the picture, in pixels")
         ->type_name("WIDTHxHEIGHT")
         ->capture_default_str();
@@ -203,6 +205,7 @@ void addMeasuringOptions(CLI::App& command, Options& options) {
         .add_option("--renderers", options.renderers,
                     "Numbers of processes to draw with; 0: draw in this one")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->check(CLI::Range(0, RendererProcesses::kMaxCount))
         ->capture_default_str();
     addConfigOptions(command, options.pictures.config);

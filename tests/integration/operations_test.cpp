@@ -71,20 +71,20 @@ std::vector<std::string> valuesIn(const std::string& printed) {
 
 TEST(Options, OfEveryCommandAreReadAsTheyArePrinted) {
     const test::TemporaryFolder folder;
-    for (const std::vector<std::string>& line :
-         std::vector<std::vector<std::string>>{{"serve"},
-                                               {"import", "terrain", "a.tif", "-o", "a.eyt"},
-                                               {"import", "mesh", "a.ply", "-o", "a.eym"},
-                                               {"info", "a.eyt"},
-                                               {"check", "a.eqc"},
-                                               {"render", "a.eyt", "-o", "a.png"},
-                                               {"pick", "a.eyt", "--camera", "a.json", "--pixel", "1,2"},
-                                               {"bench", "a.eyt", "--budget-ms", "33"},
-                                               {"synth", "mesh", "--size", "9", "-o", "a.ply"},
-                                               {"synth", "terrain", "--size", "9", "-o", "a.tif"},
-                                               {"coordinator"},
-                                               {"renderer", "--coordinator", "viz:9090"},
-                                               {"health"}}) {
+    for (const std::vector<std::string>& line : std::vector<std::vector<std::string>>{
+             {"serve"},
+             {"import", "terrain", "a.tif", "-o", "a.eyt"},
+             {"import", "mesh", "a.ply", "-o", "a.eym"},
+             {"info", "a.eyt"},
+             {"check", "a.eqc"},
+             {"render", "a.eyt", "-o", "a.png"},
+             {"pick", "a.eyt", "--camera", "a.json", "--pixel", "1,2"},
+             {"bench", "a.eyt", "--budget-ms", "33"},
+             {"synth", "mesh", "--size", "9", "-o", "a.ply"},
+             {"synth", "terrain", "--size", "9", "-o", "a.tif"},
+             {"coordinator"},
+             {"renderer", "--coordinator", "viz:9090"},
+             {"health"}}) {
         std::vector<std::string> asked = line;
         asked.emplace_back("--print-config");
         const auto printed = test::eyrie(asked);
@@ -97,6 +97,14 @@ TEST(Options, OfEveryCommandAreReadAsTheyArePrinted) {
         const auto read = test::eyrie(asked);
         EXPECT_EQ(read.exit, (test::Exit{0, 0})) << line[0] << read.errors;
         EXPECT_EQ(valuesIn(read.output), valuesIn(printed.output));
+    }
+}
+
+TEST(Options, OfNumbersBetweenCommasLeaveTheSceneBehindThemAlone) {
+    for (const char* option : {"--tau", "--budget-ms", "--renderers"}) {
+        const auto outcome =
+            test::eyrie({"bench", option, "1,2", "a.eyt", "-o", "report", "--print-config"});
+        EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors;
     }
 }
 
