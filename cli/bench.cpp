@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,8 @@
 #include "cli/drawing_options.h"
 #include "cli/log.h"
 #include "cli/occlusion_option.h"
+#include "cli/options/common_options.h"
+#include "cli/options/options_file.h"
 #include "cli/renderer_processes.h"
 #include "cli/stop_signal.h"
 #include "cli/values.h"
@@ -44,6 +48,7 @@ struct Options {
     bool json = false;
     bool progressJson = false;
     std::vector<std::string> compared;
+    std::vector<std::string> given;  ///< options that say how to measure
     bool force = false;
 };
 
@@ -95,6 +100,9 @@ bench::RunPlan planOf(const Options& options, bench::NamedFlight flight, const P
 }
 
 absl::Status runCompare(const Options& options) {
+    if (!options.given.empty() && !options.pictures.quiet)
+        tell(fmt::format("without effect, since --compare measures nothing: {}",
+                         fmt::join(options.given, ", ")));
     ASSIGN_OR_RETURN(auto a, bench::readReport(options.compared[0]));
     ASSIGN_OR_RETURN(auto b, bench::readReport(options.compared[1]));
     ASSIGN_OR_RETURN(const bench::Comparison comparison,
@@ -145,6 +153,7 @@ absl::Status runBench(const Options& options) {
         return absl::InvalidArgumentError(
             "bench needs a scene and -o FOLDER, or --compare A B; `eyrie bench --help` explains "
             "it");
+    noteIdleCompound(options.pictures, std::ranges::max(options.renderers));
     const StopSignal stop;
     RETURN_IF_ERROR(checkTaus(options.taus, options.budgets));
     RETURN_IF_ERROR(checkReference(options));
@@ -183,12 +192,14 @@ void addMeasuringOptions(CLI::App& command, Options& options) {
         ->capture_default_str();
     command.add_option("--tau", options.taus, "Screen-space errors to allow, in pixels")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->capture_default_str();
     command
         .add_option("--budget-ms", options.budgets,
                     "Frame times to hold, in ms, by drawing coarser than the least --tau as needed;"
                     " then taus only where they are given")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command.add_option("--size", options.size, "Of the picture, in pixels")
         ->type_name("WIDTHxHEIGHT")
         ->capture_default_str();
@@ -203,6 +214,7 @@ void addMeasuringOptions(CLI::App& command, Options& options) {
         .add_option("--renderers", options.renderers,
                     "Numbers of processes to draw with; 0: draw in this one")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->check(CLI::Range(0, RendererProcesses::kMaxCount))
         ->capture_default_str();
     addConfigOptions(command, options.pictures.config);
@@ -219,6 +231,21 @@ void addCompareOptions(CLI::App& command, Options& options) {
     command
         .add_flag("--force", options.force, "Compare though scene, flight, size or frames differ")
         ->needs("--compare");
+}
+
+/// Options that were given and say how to measure, not how to compare.
+std::vector<std::string> givenToMeasure(const CLI::App& command) {
+    constexpr std::array<std::string_view, 5> kToCompare = {"compare", "force", "output", "quiet",
+                                                            "json"};
+    std::vector<std::string> given;
+    for (const std::string& name : settableNames(command)) {
+        const CLI::Option& option = *command.get_option("--" + name);
+        const bool isOfMeasuring = option.get_group() != kCommonGroup &&
+                                   std::ranges::find(kToCompare, name) == kToCompare.end();
+        if (option.count() > 0 && isOfMeasuring)
+            given.push_back("--" + name);
+    }
+    return given;
 }
 
 }  // namespace
@@ -271,6 +298,7 @@ void addBench(CLI::App& app, Run& run) {
         "  eyrie bench --compare before after -o comparison");
     command->callback([options, command, &run] {
         options->hasTaus = command->count("--tau") > 0;
+        options->given = givenToMeasure(*command);
         run = [options] { return runBench(*options); };
     });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -52,6 +53,12 @@ absl::StatusOr<http::Probed> parseUrl(const std::string& url) {
     if (slash < place.size())
         probed.path = place.substr(slash);
     return probed;
+}
+
+absl::Status checkLimit(const Options& options) {
+    if (std::isnan(options.limitSeconds))  // which passes every check of a range
+        return absl::InvalidArgumentError("--limit is not a number; give seconds, such as 2");
+    return absl::OkStatus();
 }
 
 absl::Status checkOne(const std::string& address, const Options& options) {
@@ -132,6 +139,7 @@ void addHealth(CLI::App& app, Run& run) {
         "Exit status 0: all of them serve.");
     command->callback([options, &run] {
         run = [options]() -> absl::Status {
+            RETURN_IF_ERROR(checkLimit(*options));
             RETURN_IF_ERROR(checkTls(*options));
             return options->addresses.empty() ? checkHere(*options) : check(*options);
         };

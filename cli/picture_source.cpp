@@ -7,9 +7,12 @@
 #include <span>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "cli/compound_names.h"
 #include "cli/load_scene.h"
 #include "cli/local_farm.h"
+#include "cli/log.h"
 #include "coordinator/frame/budget_keeper.h"
 #include "fabric/log.h"
 #include "fabric/status.h"
@@ -132,6 +135,15 @@ absl::StatusOr<std::unique_ptr<PictureSource>> openInProcesses(
 }
 
 }  // namespace
+
+void noteIdleCompound(const PictureSourceOptions& options, int renderers) {
+    const ConfigOptions& config = options.config;
+    if (renderers <= 1 && config.file.empty() && !options.quiet &&
+        config.compound != ConfigOptions().compound)
+        tell(fmt::format(
+            "--compound {} has no effect: one process draws; --renderers says how many do",
+            config.compound));
+}
 
 absl::StatusOr<RenderedFrame> PictureSource::drawLatest(const ChooseFrame& choose) {
     const std::optional<FrameRequest> request = choose();

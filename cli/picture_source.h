@@ -22,6 +22,10 @@ struct PictureSourceOptions {
     bool quiet = false;  ///< only errors; otherwise progress and notes of imports, and warnings
 };
 
+/// Says that a --compound has no effect where `renderers` processes draw at most: one shares a
+/// frame with nobody.
+void noteIdleCompound(const PictureSourceOptions& options, int renderers);
+
 /// Draws pictures of one scene, for commands that need no viewer. Belongs to the thread that opened
 /// it, but where it can be asked for several pictures at once.
 class PictureSource {

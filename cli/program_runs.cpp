@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "cli/child_process.h"
+#include "cli/options/completed_line.h"
 #include "cli/values.h"
 #include "fabric/status.h"
 
@@ -125,18 +126,15 @@ std::string listen(Descriptor& output, Descriptor& errors,
 absl::StatusOr<api::ProgramEnd> runProgram(const std::vector<std::string>& arguments,
                                            const std::filesystem::path& folder,
                                            std::uint64_t memoryBytes,
+                                           const std::vector<std::string>& without,
                                            const std::function<void(std::string_view)>& heard,
                                            const std::stop_token& stop) {
     ASSIGN_OR_RETURN(Pipe output, makePipe());
     ASSIGN_OR_RETURN(Pipe errors, makePipe());
-    // How the server shares its work is nothing to what it has done.
-    ASSIGN_OR_RETURN(ChildProcess child, ChildProcess::start(arguments, {},
-                                                             {folder,
-                                                              output.write.number(),
-                                                              errors.write.number(),
-                                                              memoryBytes,
-                                                              kNiceness,
-                                                              {"EYRIE_CONFIG", "EYRIE_COMPOUND"}}));
+    ASSIGN_OR_RETURN(ChildProcess child,
+                     ChildProcess::start(arguments, {},
+                                         {folder, output.write.number(), errors.write.number(),
+                                          memoryBytes, kNiceness, without}));
     output.write.close();
     errors.write.close();
     api::ProgramEnd end;
@@ -155,6 +153,7 @@ absl::StatusOr<api::ProgramEnd> runProgram(const std::vector<std::string>& argum
 }  // namespace
 
 void addProgramOptions(CLI::App& command, ProgramOptions& options) {
+    options.program = command.get_parent();
     command
         .add_option("--imports", options.imports,
                     "Imports into --data, and bench runs, that programs with the role admin may "
@@ -177,9 +176,12 @@ absl::StatusOr<api::Programs> programsOf(const ProgramOptions& options) {
     api::Programs programs;
     programs.importsAtOnce = static_cast<std::size_t>(options.imports);
     programs.importMemoryBytes = bytes;
-    programs.run = [limit = bytes + kSlackBytes](const auto& arguments, const auto& folder,
-                                                 const auto& heard, const auto& stop) {
-        return runProgram(arguments, folder, limit, heard, stop);
+    // How the server is to do its work is nothing to what it has done: neither what its command
+    // line says reaches them nor what its environment does.
+    programs.run = [limit = bytes + kSlackBytes, without = variablesOf(*options.program)](
+                       const auto& arguments, const auto& folder, const auto& heard,
+                       const auto& stop) {
+        return runProgram(arguments, folder, limit, without, heard, stop);
     };
     return programs;
 }

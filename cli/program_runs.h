@@ -17,6 +17,7 @@ namespace eyrie::cli {
 struct ProgramOptions {
     int imports = 1;
     std::string importMemory = "1G";
+    const CLI::App* program = nullptr;  ///< whose options are the coordinator's, not theirs
 };
 
 void addProgramOptions(CLI::App& command, ProgramOptions& options);

@@ -47,6 +47,7 @@ struct Options {
     std::string camera;
     std::string flight;  ///< drawn instead, as a video
     int framesPerSecond = 30;
+    bool hasRate = false;  ///< was given
     std::string size = "1280x720";
     double tau = 1;
     fabric::Shading shading = fabric::Shading::Smooth;
@@ -287,18 +288,10 @@ absl::Status renderFlight(const Options& options) {
         options.scene, options.pictures, request, stop.token());
 }
 
-/// One process shares a frame with nobody.
-void noteIdleCompound(const PictureSourceOptions& pictures) {
-    const ConfigOptions& config = pictures.config;
-    if (pictures.renderers <= 1 && config.file.empty() && !pictures.quiet &&
-        config.compound != ConfigOptions().compound)
-        tell(fmt::format(
-            "--compound {} has no effect: one process draws; --renderers says how many do",
-            config.compound));
-}
-
 absl::Status renderAsAsked(const Options& options) {
-    noteIdleCompound(options.pictures);
+    noteIdleCompound(options.pictures, options.pictures.renderers);
+    if (options.hasRate && options.flight.empty() && !options.pictures.quiet)
+        tell("--fps has no effect: it is of the video of a --flight");
     if (!options.camera.empty() && !options.flight.empty())
         return absl::InvalidArgumentError(
             "name either --camera, for a picture, or --flight, for a video");
@@ -395,7 +388,10 @@ void addRender(CLI::App& app, Run& run) {
         "  eyrie render dem.eyt --flight flight.json --fps 30 --size 1280x720 -o flight.mp4\n"
         "  eyrie render scan.eym --camera cam.json --size 1024x1024 --config cave.eqc --all -o "
         "cave.png");
-    command->callback([options, &run] { run = [options] { return renderAsAsked(*options); }; });
+    command->callback([options, command, &run] {
+        options->hasRate = command->count("--fps") > 0;
+        run = [options] { return renderAsAsked(*options); };
+    });
 }
 
 }  // namespace eyrie::cli

@@ -50,6 +50,8 @@ def ended(server, operation):
 
 def main():
     arguments = [each for each in sys.argv[1:] if each != "--reference"]
+    if len(arguments) not in (3, 4):
+        raise SystemExit(__doc__)
     server, output, file = arguments[0].rstrip("/"), arguments[1], arguments[2]
     try:
         taus = [float(tau) for tau in (arguments[3] if len(arguments) > 3 else "1,4").split(",")]
@@ -78,6 +80,4 @@ def main():
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (4, 5, 6):
-        raise SystemExit(__doc__)
     main()

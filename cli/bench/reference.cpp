@@ -147,9 +147,10 @@ void addReferenceOptions(CLI::App& command, ReferenceOptions& options) {
         ->needs(reference)
         ->capture_default_str();
     command
-        .add_option("--source", options.sources,
-                    "The source's files, where they are neither where they were imported from nor "
-                    "beside the import")
+        .add_option(
+            "--source", options.sources,
+            "The source's files, all that follow up to the next option, where they are neither "
+            "where they were imported from nor beside the import")
         ->needs(reference)
         ->type_name("FILE");
     command

@@ -168,8 +168,8 @@ void addImportTerrain(CLI::App& parent, Run& run) {
     command
         ->add_option(
             "--imagery", options->imagery,
-            "Pictures to lay over it, as many as you like, of any CRS and resolution. Where "
-            "none has a pixel the terrain is tinted by height")
+            "Pictures to lay over it, all files that follow up to the next option, of any CRS and "
+            "resolution. Where none has a pixel the terrain is tinted by height")
         ->type_name("FILE");
     addCommonOptions(*command, *options);
     command

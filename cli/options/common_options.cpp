@@ -6,28 +6,26 @@
 namespace eyrie::cli {
 namespace {
 
-constexpr const char* kGroup = "Every command";
-
 void addTo(CLI::App& command, CommonOptions& options) {
     command
         .add_option("--options", options.file,
                     "A file of options, TOML or INI: for what neither the command line says nor "
                     "the environment, EYRIE_ and the option's name (docs/operations.md)")
         ->type_name("FILE")
-        ->group(kGroup);
+        ->group(kCommonGroup);
     command
         .add_flag("--print-config", options.printsConfig,
                   "Print every option, its value and where that came from, and end")
-        ->group(kGroup);
+        ->group(kCommonGroup);
     command.add_option("--log-format", options.logFormat, "Of the log: text, or JSON, one a line")
         ->check(oneOf({"text", "json"}))
         ->type_name("text|json")
         ->capture_default_str()
-        ->group(kGroup);
+        ->group(kCommonGroup);
     command.add_option("--log-level", options.logLevel, "The least that is logged [info]")
         ->check(oneOf({"trace", "debug", "info", "warn", "error", "off"}))
         ->type_name("trace|debug|info|warn|error|off")
-        ->group(kGroup);
+        ->group(kCommonGroup);
 }
 
 }  // namespace

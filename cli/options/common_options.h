@@ -7,6 +7,9 @@
 
 namespace eyrie::cli {
 
+/// What --help puts them under.
+inline constexpr const char* kCommonGroup = "Every command";
+
 /// Of every command: where options come from, and the log.
 struct CommonOptions {
     std::string file;

@@ -109,6 +109,14 @@ std::string variableOf(const std::string& option) {
     return name;
 }
 
+std::vector<std::string> variablesOf(const CLI::App& app) {
+    std::vector<std::string> variables = {variableOf("options")};
+    for (const CLI::App* command : commandsOf(app))
+        for (const std::string& name : settableNames(*command))
+            variables.push_back(variableOf(name));
+    return variables;
+}
+
 absl::StatusOr<CompletedLine> completed(const CLI::App& app, std::vector<std::string> arguments,
                                         const Environment& environment) {
     CompletedLine line{std::move(arguments)};

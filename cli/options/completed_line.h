@@ -28,6 +28,9 @@ using Environment = std::function<std::optional<std::string>(const std::string& 
 /// "EYRIE_CACHE_SIZE" of "cache-size".
 std::string variableOf(const std::string& option);
 
+/// All that completed() looks for in the environment, whatever the command.
+std::vector<std::string> variablesOf(const CLI::App& app);
+
 /// Completes what comes after the program's name: an option that is not among `arguments` takes its
 /// value from the environment (EYRIE_ and its name; what is empty counts as not set; lists are
 /// separated by spaces), and else from the file that --options, or EYRIE_OPTIONS, names. Flags are

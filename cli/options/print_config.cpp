@@ -36,10 +36,11 @@ std::string lineOf(const CLI::Option& option, const CompletedLine& line) {
             isFlag ? (option.count() > 0 ? "true" : "false") : joined(option.results());
         return fmt::format("{} = {}  # {}\n", name, value, from);
     }
+    // A setting would be more than the default is: some options need another, or count as given.
     if (isFlag)
-        return fmt::format("{} = false  # default\n", name);
+        return fmt::format("# {} = false  # default\n", name);
     if (!option.get_default_str().empty())
-        return fmt::format("{} = {}  # default\n", name, quoted(option.get_default_str()));
+        return fmt::format("# {} = {}  # default\n", name, quoted(option.get_default_str()));
     return fmt::format("# {} is not set\n", name);
 }
 

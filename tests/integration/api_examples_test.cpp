@@ -351,7 +351,8 @@ TEST(Examples, SayHowTheyAreCalledWhereANumberIsNone) {
                                                {"watch_statistics.py", "many"},
                                                {"sessions.py", "tour", "0,0,up", "0,0,0"},
                                                {"sessions.py", "tour", "shut"},
-                                               {"run_bench.py", "a.bench", place, "1,fine"}}) {
+                                               {"run_bench.py", "a.bench", place, "1,fine"},
+                                               {"run_bench.py", "a.bench", "--reference"}}) {
         std::vector<std::string> command{"/usr/bin/env", "python3",
                                          EYRIE_SOURCE_DIR "/examples/" + example[0],
                                          "http://127.0.0.1:1"};

@@ -428,6 +428,20 @@ TEST_F(Bench, RefusesWhatItCannotMeasure) {
     EXPECT_THAT(said({"bench", "--compare", path("no-such"), path("no-such")}),
                 testing::HasSubstr("no-such"));
     EXPECT_THAT(said({"bench", "--compare", path("")}), testing::HasSubstr("--compare"));
+    EXPECT_THAT(said({"bench", "--compare", path("a"), path("b"), "--tau", "5", "--size", "3x3",
+                      "--reference", "--log-format", "text", "-o", path("c")}),
+                testing::HasSubstr("--compare measures nothing: --tau, --size, --reference\n"));
+}
+
+TEST_F(Bench, SaysThatACompoundIsOfSeveralRenderers) {
+    const auto errors = [&](const std::string& renderers) {
+        return eyrie({"bench", dem(), "--compound", "DB", "--renderers", renderers, "--size",
+                      "64x36", "--frames", "2", "--repeats", "1", "--tau", "8", "-o",
+                      path("compound")})
+            .errors;
+    };
+    EXPECT_THAT(errors("0,1"), testing::HasSubstr("--compound DB has no effect"));
+    EXPECT_THAT(errors("1,2"), testing::Not(testing::HasSubstr("has no effect")));
 }
 
 }  // namespace

@@ -58,6 +58,22 @@ TEST(Deploy, ChartsGiveEachCommandOptionsThatItHas) {
     expectKnown({"import", "terrain"}, textOf(templates + "import.yaml"), "import.yaml");
 }
 
+/// A pod whose volume is full is evicted.
+TEST(Deploy, PodsKeepLessThanTheirCacheHolds) {
+    const std::string values = textOf("helm/eyrie/values.yaml");
+    const auto gigabytesOf = [&](const std::string& name) {
+        std::smatch found;
+        EXPECT_TRUE(std::regex_search(values, found, std::regex("\n  " + name + ": (\\d+)Gi?\n")))
+            << name;
+        return found.empty() ? 0 : std::stoi(found[1]);
+    };
+    EXPECT_GT(gigabytesOf("keptFromUrls"), 0);
+    EXPECT_LT(gigabytesOf("keptFromUrls"), gigabytesOf("cacheSize"));
+    for (const char* name : {"coordinator.yaml", "renderers.yaml"})
+        EXPECT_THAT(textOf(std::string("helm/eyrie/templates/") + name),
+                    HasSubstr("- --cache-size={{ .Values.data.keptFromUrls }}\n"));
+}
+
 TEST(Deploy, ComposeGivesEachCommandOptionsThatItHas) {
     const std::string text = textOf("compose.yaml");
     const std::regex command("command: \\[(\\w+), ([^\\n]*)\\]");

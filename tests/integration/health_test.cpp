@@ -114,6 +114,14 @@ TEST(Health, IsNotThatOfAServerThatSaysNothing) {
     close(mute);
 }
 
+TEST(Health, WithinNoNumberOfSecondsIsAWrongCommandLine) {
+    for (const char* limit : {"nan", "0", "soon"}) {
+        const test::Outcome outcome = test::eyrie({"health", "localhost:1", "--limit", limit});
+        EXPECT_EQ(outcome.exit, (test::Exit{2, 0})) << limit;
+        EXPECT_THAT(outcome.errors, HasSubstr("--limit")) << limit;
+    }
+}
+
 TEST(Health, OfWhatIsNoAddressIsAWrongCommandLine) {
     for (const char* address : {"localhost", "http://localhost", "http://localhost:x/", "unix:"})
         EXPECT_EQ(test::eyrie({"health", address}).exit, (test::Exit{2, 0})) << address;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an operator relies on: options from three places, a log for machines, a wall clock that may
 // be set, and an end in time.
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -43,7 +44,7 @@ TEST(Options, ComeFromTheCommandLineTheEnvironmentAndAFile) {
     EXPECT_THAT(outcome.output, HasSubstr("cache = \"/environment\"  # EYRIE_CACHE\n"));
     EXPECT_THAT(outcome.output,
                 HasSubstr("listen = \"127.0.0.1:1\"  # " + folder.path("eyrie.toml") + "\n"));
-    EXPECT_THAT(outcome.output, HasSubstr("cache-size = \"10G\"  # default\n"));
+    EXPECT_THAT(outcome.output, HasSubstr("\n# cache-size = \"10G\"  # default\n"));
 }
 
 TEST(Options, SayWhereAWrongValueComesFrom) {
@@ -59,6 +60,52 @@ TEST(Options, UnknownOnesInAFileAreRefusedWithWhatComesNear) {
         test::eyrie({"serve", "scene.json", "--options", folder.path("eyrie.toml")});
     EXPECT_EQ(outcome.exit, (test::Exit{2, 0}));
     EXPECT_THAT(outcome.errors, HasSubstr("did you mean 'renderers'?"));
+}
+
+/// The lines without where they are from.
+std::vector<std::string> valuesIn(const std::string& printed) {
+    std::vector<std::string> lines = linesOf(printed);
+    for (std::string& line : lines) line.erase(std::min(line.size(), line.rfind("  # ")));
+    return lines;
+}
+
+TEST(Options, OfEveryCommandAreReadAsTheyArePrinted) {
+    const test::TemporaryFolder folder;
+    for (const std::vector<std::string>& line : std::vector<std::vector<std::string>>{
+             {"serve"},
+             {"import", "terrain", "a.tif", "-o", "a.eyt"},
+             {"import", "mesh", "a.ply", "-o", "a.eym"},
+             {"info", "a.eyt"},
+             {"check", "a.eqc"},
+             {"render", "a.eyt", "-o", "a.png"},
+             {"pick", "a.eyt", "--camera", "a.json", "--pixel", "1,2"},
+             {"bench", "a.eyt", "--budget-ms", "33"},
+             {"synth", "mesh", "--size", "9", "-o", "a.ply"},
+             {"synth", "terrain", "--size", "9", "-o", "a.tif"},
+             {"coordinator"},
+             {"renderer", "--coordinator", "viz:9090"},
+             {"health"}}) {
+        std::vector<std::string> asked = line;
+        asked.emplace_back("--print-config");
+        const auto printed = test::eyrie(asked);
+        ASSERT_EQ(printed.exit, (test::Exit{0, 0})) << line[0] << printed.errors;
+        std::ofstream(folder.path("eyrie.toml")) << printed.output;
+        // Of the line its command and its files.
+        asked.erase(std::ranges::find_if(asked, [](const auto& word) { return word[0] == '-'; }),
+                    asked.end());
+        asked.insert(asked.end(), {"--print-config", "--options", folder.path("eyrie.toml")});
+        const auto read = test::eyrie(asked);
+        EXPECT_EQ(read.exit, (test::Exit{0, 0})) << line[0] << read.errors;
+        EXPECT_EQ(valuesIn(read.output), valuesIn(printed.output));
+    }
+}
+
+TEST(Options, OfNumbersBetweenCommasLeaveTheSceneBehindThemAlone) {
+    for (const char* option : {"--tau", "--budget-ms", "--renderers"}) {
+        const auto outcome =
+            test::eyrie({"bench", option, "1,2", "a.eyt", "-o", "report", "--print-config"});
+        EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors;
+    }
 }
 
 TEST(JsonLog, HasTheSameFieldsInEveryLine) {

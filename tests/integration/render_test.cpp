@@ -362,6 +362,13 @@ TEST_F(Render, SaysThatACompoundIsOfSeveralRenderers) {
     EXPECT_EQ(errors({}).find("--compound"), std::string::npos);
 }
 
+TEST_F(Render, SaysThatARateOfPicturesIsOfAFlight) {
+    const test::Outcome outcome =
+        eyrie({"render", path("ball.eym"), "--fps", "10", "-o", path("rate.png")});
+    EXPECT_EQ(outcome.exit, (test::Exit{0, 0}));
+    EXPECT_NE(outcome.errors.find("--fps has no effect"), std::string::npos) << outcome.errors;
+}
+
 /// Pictures count rows from the top, depth from the bottom.
 TEST_F(Render, WhatAPixelShowsIsWhereItsDepthSays) {
     const std::string camera = terrainCamera();

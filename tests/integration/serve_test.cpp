@@ -28,19 +28,21 @@ using std::chrono::seconds;
 constexpr int kWidth = 640;
 constexpr int kHeight = 360;
 
-/// A server of the demo's scene, or of other data, with a temporary folder and a cache of its own.
+/// A server of the demo's scene, or of other data, in a folder of its own, as its temporary folder
+/// and its cache are.
 class Serve : public testing::Test {
 protected:
     void start(const std::string& listen = "127.0.0.1:0",
                const std::vector<std::string>& how = {"--renderers", "2"}) {
         std::filesystem::create_directory(folder_.path("tmp"));
-        std::vector<std::string> arguments{"serve", "--listen", listen};
+        std::vector<std::string> arguments{"/usr/bin/env", "-C",       folder_.path(), EYRIE_BINARY,
+                                           "serve",        "--listen", listen};
         arguments.insert(arguments.end(), data_.begin(), data_.end());
         arguments.insert(arguments.end(), how.begin(), how.end());
         std::vector<std::string> environment{"TMPDIR=" + folder_.path("tmp"),
                                              "XDG_CACHE_HOME=" + folder_.path("cache")};
         environment.insert(environment.end(), environment_.begin(), environment_.end());
-        server_ = std::make_unique<test::Process>(test::eyrieCommand(arguments), environment);
+        server_ = std::make_unique<test::Process>(arguments, environment);
     }
 
     void startAndWait(const std::vector<std::string>& how = {"--renderers", "2"}) {
@@ -234,6 +236,35 @@ TEST_F(Serve, ShowsWhatIsNamedAndNotWhatTheDataFolderHasOfThatName) {
     const auto state = test::httpGet(port_, "/readyz");
     ASSERT_TRUE(state.ok());
     EXPECT_GT(test::number(test::parseJson(state->body), "scene.triangles"), 1500) << state->body;
+}
+
+/// Programs that look into files and import them print what the server reads, whatever it prints.
+TEST_F(Serve, KeepsItsOptionsFromTheProgramsThatItRuns) {
+    std::filesystem::create_directory(folder_.path("data"));
+    makeBall(1000, folder_.path("data/ball.eym"));
+    folder_.write("data/broken.ply", "ply\n");
+    folder_.write("eyrie.toml", "quiet = true\n");
+    environment_ = {"EYRIE_OPTIONS=eyrie.toml", "EYRIE_QUIET=1", "EYRIE_LOG_LEVEL=off"};
+    ASSERT_NO_FATAL_FAILURE(startAndWait({"--renderers", "2", "--data", folder_.path("data")}));
+    const auto listed = test::httpGet(port_, "/api/v1/data-sets");
+    ASSERT_TRUE(listed.ok());
+    EXPECT_NE(listed->body.find("\"kind\": \"DATA_SET_KIND_MESH\""), std::string::npos)
+        << listed->body;
+    const auto begun =
+        test::httpPost(port_, "/api/v1/imports",
+                       R"({"sources":["broken.ply"],"output":"broken.eym","requestId":"broken"})");
+    ASSERT_TRUE(begun.ok());
+    std::string told;
+    ASSERT_TRUE(test::eventually(
+        seconds(30),
+        [&] {
+            const auto operation = test::httpGet(port_, "/api/v1/operations/broken");
+            told = operation.ok() ? operation->body : "";
+            return told.find("OPERATION_STATE_FAILED") != std::string::npos;
+        }))
+        << begun->body << told;
+    EXPECT_NE(told.find("broken.ply"), std::string::npos) << told;
+    EXPECT_EQ(told.find("ended with status"), std::string::npos) << told;
 }
 
 TEST_F(Serve, GoesOnWhenARendererIsKilledAndReplacesIt) {

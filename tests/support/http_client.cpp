@@ -93,6 +93,11 @@ absl::StatusOr<HttpAnswer> httpPatch(std::uint16_t port, const std::string& targ
     return sendJson(port, "PATCH " + target, json, limit);
 }
 
+absl::StatusOr<HttpAnswer> httpPost(std::uint16_t port, const std::string& target,
+                                    const std::string& json, std::chrono::milliseconds limit) {
+    return sendJson(port, "POST " + target, json, limit);
+}
+
 absl::StatusOr<HttpAnswer> httpPut(std::uint16_t port, const std::string& target,
                                    const std::string& json, std::chrono::milliseconds limit) {
     return sendJson(port, "PUT " + target, json, limit);

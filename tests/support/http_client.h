@@ -25,6 +25,11 @@ absl::StatusOr<HttpAnswer> httpPatch(std::uint16_t port, const std::string& targ
                                      const std::string& json,
                                      std::chrono::milliseconds limit = std::chrono::seconds(10));
 
+/// The same with POST.
+absl::StatusOr<HttpAnswer> httpPost(std::uint16_t port, const std::string& target,
+                                    const std::string& json,
+                                    std::chrono::milliseconds limit = std::chrono::seconds(10));
+
 /// The same with PUT.
 absl::StatusOr<HttpAnswer> httpPut(std::uint16_t port, const std::string& target,
                                    const std::string& json,

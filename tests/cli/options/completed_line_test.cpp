@@ -194,7 +194,7 @@ TEST_F(Program, PrintsEveryValueWithItsOriginAsAFileThatSaysTheSame) {
     ASSERT_TRUE(run({"serve", "dem.tif", "--options", file_, "--allow-url", "https://a/"}).ok());
     const std::string printed = printedConfig(line_);
     EXPECT_THAT(printed, HasSubstr("[serve]\n"));
-    EXPECT_THAT(printed, HasSubstr("listen = \"default:1\"  # default\n"));
+    EXPECT_THAT(printed, HasSubstr("\n# listen = \"default:1\"  # default\n"));
     EXPECT_THAT(printed, HasSubstr("renderers = 3  # EYRIE_RENDERERS\n"));
     EXPECT_THAT(printed, HasSubstr("quiet = true  # " + file_ + "\n"));
     EXPECT_THAT(printed, HasSubstr("allow-url = \"https://a/\"  # the command line\n"));
@@ -203,6 +203,13 @@ TEST_F(Program, PrintsEveryValueWithItsOriginAsAFileThatSaysTheSame) {
     ASSERT_TRUE(run({"serve", "dem.tif", "--options", file_}).ok());
     EXPECT_EQ(renderers_, 3);
     EXPECT_THAT(urls_, ElementsAre("https://a/"));
+}
+
+TEST_F(Program, NamesTheVariablesOfAllCommands) {
+    const Arguments variables = variablesOf(app_);
+    for (const char* name : {"EYRIE_OPTIONS", "EYRIE_ALLOW_URL", "EYRIE_QUIET", "EYRIE_OUTPUT"})
+        EXPECT_THAT(variables, testing::Contains(name));
+    EXPECT_THAT(variables, testing::Not(testing::Contains("EYRIE_HELP")));
 }
 
 TEST(DidYouMean, ProposesOnlyWhatIsNear) {
