@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -9,6 +8,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "tests/coordinator/balanced_scene.h"
+#include "tests/coordinator/hot_tenths.h"
 
 namespace eyrie::equalizer {
 namespace {
@@ -29,34 +29,11 @@ double imbalance(const Balanced& balanced, const Spot& spot) {
     return longest * static_cast<double>(children(balanced).size()) / spot.total();
 }
 
-struct Case {
-    const char* mode;
-    Area hot;  ///< a tenth of the whole
-};
-constexpr double kLow = .3419;
-constexpr std::array<Case, 12> kCases = {{{"2D", {.45, 0, .55, 1}},
-                                          {"2D", {.9, 0, 1, 1}},
-                                          {"2D", {.6838, .6838, 1, 1}},
-                                          {"2D", {kLow, kLow, 1 - kLow, 1 - kLow}},
-                                          {"2D", {.1, .3, .3, .8}},
-                                          {"DB", {.45, 0, .55, 1}},
-                                          {"DB", {.9, 0, 1, 1}},
-                                          {"DB", {.2, 0, .3, 1}},
-                                          {"VERTICAL", {.9, 0, 1, 1}},
-                                          {"VERTICAL", {.33, 0, .43, 1}},
-                                          {"HORIZONTAL", {0, .45, 1, .55}},
-                                          {"HORIZONTAL", {0, 0, 1, .1}}}};
-
-Balanced loadBalanced(int count, const std::string& settings) {
-    return Balanced(
-        configurationOf(count - 1, sharedBetween(count, "load_equalizer { " + settings + " }")));
-}
-
 /// Equal shares are the best that any split can do: the sum over their number.
 void expectWithin15Percent(double noise) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> off(1 - noise, 1 + noise);
-    for (const auto& [mode, hot] : kCases)
+    for (const auto& [mode, hot] : kHotTenths)
         for (int count = 2; count <= 8; ++count) {
             Balanced balanced = loadBalanced(count, std::string("mode ") + mode);
             const Spot spot{hot};
@@ -77,7 +54,7 @@ TEST(LoadEqualizer, IsWithin15PercentOfTheBestSplitInTenFramesAndStaysThere) {
 TEST(LoadEqualizer, IsNotThrownOffByTimesThatAreATenthOff) { expectWithin15Percent(.1); }
 
 TEST(LoadEqualizer, ComesToRestWhereLoadRests) {
-    for (const auto& [mode, hot] : kCases) {
+    for (const auto& [mode, hot] : kHotTenths) {
         Balanced balanced = loadBalanced(7, std::string("mode ") + mode);
         for (int frame = 0; frame < 30; ++frame) balanced.draw(Spot{hot});
         const config::Configuration before = balanced.live;
@@ -91,7 +68,12 @@ TEST(LoadEqualizer, ComesToRestWhereLoadRests) {
 TEST(LoadEqualizer, KnowsARendererThatIsTenTimesSlowerWithin20FramesHoweverTheyBegin) {
     std::mt19937 random(7);
     std::exponential_distribution<double> loading(.2);
-    for (const char* mode : {"mode DB", "mode 2D", "mode 2D boundary [ 31 31 ]"})
+    struct Mode {
+        const char* settings;
+        double slow;  ///< how far off the slow one's time may be: a column of 31 pixels takes 24 ms
+    };
+    for (const auto& [mode, slow] :
+         {Mode{"mode DB", 20}, {"mode 2D", 20}, {"mode 2D boundary [ 31 31 ]", 26}})
         for (int run = 0; run < 200; ++run) {
             Balanced balanced = loadBalanced(3, mode);
             balanced.draw([&](const auto&) { return loading(random); });
@@ -105,7 +87,8 @@ TEST(LoadEqualizer, KnowsARendererThatIsTenTimesSlowerWithin20FramesHoweverTheyB
                     continue;
                 // Equal times are 100 / (1 + 1/10 + 1).
                 ASSERT_NEAR(milliseconds[1], 100 / 2.1, 4) << mode << ", " << run << ", " << frame;
-                ASSERT_NEAR(milliseconds[2], 100 / 2.1, 26) << mode << ", " << run << ", " << frame;
+                ASSERT_NEAR(milliseconds[2], 100 / 2.1, slow)
+                    << mode << ", " << run << ", " << frame;
             }
         }
 }
