@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/import/assimp_reader.h"
+#include "renderer/import/assimp_formats.h"
 
 namespace eyrie::import {
 

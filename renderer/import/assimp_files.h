@@ -5,7 +5,7 @@
 
 #include <assimp/IOSystem.hpp>
 
-#include "renderer/import/assimp_reader.h"
+#include "renderer/import/assimp_formats.h"
 
 namespace eyrie::import {
 

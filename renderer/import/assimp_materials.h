@@ -9,7 +9,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
-#include "renderer/import/assimp_reader.h"
+#include "renderer/import/assimp_formats.h"
 #include "renderer/import/triangle_mesh.h"
 
 namespace eyrie::import {

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "fabric/status.h"
+#include "renderer/import/assimp_formats.h"
 #include "renderer/import/assimp_reader.h"
 #include "renderer/import/jdn_reader.h"
 #include "renderer/import/named_images.h"

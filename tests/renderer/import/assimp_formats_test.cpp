@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // One solid in every format that a test can write: by Assimp's exporters, as text, as bytes. The
 // others were tried with Assimp's own models (docs/benchmarks.md).
+#include "renderer/import/assimp_formats.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>

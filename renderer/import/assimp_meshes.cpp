@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/assimp_meshes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <absl/status/status.h>
+#include <assimp/material.h>
+#include <assimp/mesh.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
+#include "fabric/box.h"
+#include "fabric/status.h"
+#include "renderer/import/assimp_axes.h"
+#include "renderer/import/assimp_lights.h"
+#include "renderer/import/assimp_materials.h"
+#include "renderer/import/assimp_values.h"
+#include "renderer/import/polygon.h"
+
+namespace eyrie::import {
+namespace {
+
+/// Of surfaces without a material, where others have one.
+const aiColor4D kPlain{0.8F, 0.8F, 0.8F, 1.0F};
+
+std::uint8_t byteOf(float value, bool isLinear) {
+    double shown = std::isfinite(value) ? std::clamp(double{value}, 0.0, 1.0) : 1.0;
+    if (isLinear)  // IEC 61966-2-1
+        shown = shown <= 0.0031308 ? 12.92 * shown : 1.055 * std::pow(shown, 1 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(std::lround(255 * shown));
+}
+
+bool isBelowZero(const aiColor4D& colour) {
+    return !(colour.r >= 0 && colour.g >= 0 && colour.b >= 0 && colour.a >= 0);
+}
+
+/// Assimp gives colours of glTF that are of three numbers an alpha of 0, which is to be 1.
+bool lacksAlpha(const aiMesh& mesh, const aiColor4D* colours) {
+    return std::all_of(colours, colours + mesh.mNumVertices,
+                       [](const aiColor4D& colour) { return colour.a == 0; });
+}
+
+bool isNothing(const aiColor4D& colour) { return colour == aiColor4D(0, 0, 0, 0); }
+
+bool hasOwnMaterial(const aiMaterial& material) {
+    aiString name;
+    aiColor4D ignored;
+    return material.Get(AI_MATKEY_COLOR_DIFFUSE, ignored) == AI_SUCCESS &&
+           !(material.Get(AI_MATKEY_NAME, name) == AI_SUCCESS &&
+             std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME);
+}
+
+/// Whether a mesh shows others' shapes besides its own.
+bool isMorphed(const aiMesh* mesh) {
+    return std::ranges::any_of(std::span(mesh->mAnimMeshes, mesh->mNumAnimMeshes),
+                               [](const aiAnimMesh* shape) { return shape->mWeight != 0; });
+}
+
+/// Whether the file's own coordinates are in single precision.
+bool isOfSinglePrecision(const AssimpFormat& format) {
+    constexpr std::array kExtensions = {".3ds", ".b3d", ".glb", ".gltf", ".iqm",  ".lwo",
+                                        ".lxo", ".md2", ".md3", ".mdc",  ".ms3d", ".stl"};
+    return std::ranges::count(kExtensions, format.extension) > 0;
+}
+
+/// Gathers what the nodes of a scene show.
+class SceneMeshes {
+public:
+    SceneMeshes(const aiScene& scene, const AssimpFormat& format)
+        : scene_(scene), format_(format), materials_(scene, format) {
+        for (unsigned int i = 0; i < scene.mNumMeshes; ++i) {
+            const aiMesh& mesh = *scene.mMeshes[i];
+            hasNormals_ = hasNormals_ || mesh.mNormals != nullptr;
+            lookAtColours(mesh);
+            hasColours_ = hasColours_ || colours_.back() != nullptr || materialOf(mesh) != nullptr;
+        }
+    }
+
+    absl::StatusOr<TriangleMesh> gather();
+
+private:
+    void lookAtColours(const aiMesh& mesh);
+    const aiMaterial* materialOf(const aiMesh& mesh) const;
+    absl::Status add(unsigned int number, const glm::dmat4& worldFromMesh);
+    absl::Status addVertices(const aiMesh& mesh, const glm::dmat4& worldFromMesh);
+    void addColours(const aiMesh& mesh, const aiColor4D* colours);
+    void addTextureCoordinates(const aiMesh& mesh);
+    absl::Status addFaces(const aiMesh& mesh, std::uint32_t first, bool isMirrored);
+    absl::Status addFace(const aiFace& face, std::uint32_t first);
+    void noteWhatIsLeftOut();
+    void noteRounding();
+
+    const aiScene& scene_;
+    const AssimpFormat& format_;
+    AssimpMaterials materials_;
+    std::vector<const aiColor4D*> colours_;  // of each mesh's vertices, or null
+    std::size_t wrongColours_ = 0;           // meshes of which they are left out
+    bool hasNormals_ = false;
+    bool hasColours_ = false;
+    double farthest_ = 0;  // metres of a vertex from its mesh's own origin
+    TriangleMesh result_;
+    std::vector<std::uint32_t> corners_;  // of the face being added
+};
+
+/// Assimp gives AMF's vertices the colour 0, 0, 0, 0 where the file has none, and takes Blender's
+/// bytes for signed ones. glTF's mean what they say.
+void SceneMeshes::lookAtColours(const aiMesh& mesh) {
+    colours_.push_back(mesh.mColors[0]);
+    if (mesh.mColors[0] == nullptr || format_.hasLinearColours)
+        return;
+    const std::span colours(mesh.mColors[0], mesh.mNumVertices);
+    const bool isWrong = std::ranges::any_of(colours, isBelowZero);
+    wrongColours_ += isWrong ? 1 : 0;
+    if (isWrong || std::ranges::all_of(colours, isNothing))
+        colours_.back() = nullptr;
+}
+
+const aiMaterial* SceneMeshes::materialOf(const aiMesh& mesh) const {
+    if (mesh.mMaterialIndex >= scene_.mNumMaterials)
+        return nullptr;
+    const aiMaterial* material = scene_.mMaterials[mesh.mMaterialIndex];
+    return hasOwnMaterial(*material) ? material : nullptr;
+}
+
+absl::Status SceneMeshes::addVertices(const aiMesh& mesh, const glm::dmat4& worldFromMesh) {
+    const glm::dmat3 worldFromNormal = glm::transpose(glm::inverse(glm::dmat3(worldFromMesh)));
+    for (unsigned int i = 0; i < mesh.mNumVertices; ++i) {
+        const aiVector3D& v = mesh.mVertices[i];
+        const fabric::Vec3 position(worldFromMesh * glm::dvec4(v.x, v.y, v.z, 1));
+        if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z))
+            return absl::InvalidArgumentError(fmt::format(
+                "mesh '{}', vertex {}: found {}, {}, {}, expected finite coordinates; remove or "
+                "repair the vertex",
+                mesh.mName.C_Str(), i, position.x, position.y, position.z));
+        result_.positions.push_back(position);
+        farthest_ = std::max(farthest_,
+                             glm::length(glm::dvec3(worldFromMesh * glm::dvec4(v.x, v.y, v.z, 0))));
+        if (!hasNormals_)
+            continue;
+        const aiVector3D n = mesh.mNormals != nullptr ? mesh.mNormals[i] : aiVector3D();
+        result_.normals.emplace_back(worldFromNormal * glm::dvec3(n.x, n.y, n.z));
+    }
+    return absl::OkStatus();
+}
+
+void SceneMeshes::addColours(const aiMesh& mesh, const aiColor4D* colours) {
+    const aiMaterial* material = materialOf(mesh);
+    aiColor4D diffuse = colours != nullptr ? aiColor4D(1, 1, 1, 1) : kPlain;
+    if (material != nullptr)
+        diffuse = materials_.colourOf(mesh);
+    const bool takesOpaque = colours != nullptr && format_.isGltf() && lacksAlpha(mesh, colours);
+    for (unsigned int i = 0; i < mesh.mNumVertices; ++i) {
+        aiColor4D own = colours != nullptr ? colours[i] : aiColor4D(1, 1, 1, 1);
+        if (takesOpaque)
+            own.a = 1;
+        const auto shown = [this](float value) { return byteOf(value, format_.hasLinearColours); };
+        result_.colours.push_back(
+            {shown(diffuse.r * own.r), shown(diffuse.g * own.g), shown(diffuse.b * own.b),
+             byteOf(materials_.isOpaque(mesh) ? 1.0F : diffuse.a * own.a, false)});
+    }
+}
+
+void SceneMeshes::addTextureCoordinates(const aiMesh& mesh) {
+    result_.materialOf.resize(result_.positions.size(), materials_.numberOf(mesh));
+    for (unsigned int i = 0; i < mesh.mNumVertices && materials_.hasTextures(); ++i)
+        result_.textureCoordinates.push_back(materials_.textureCoordinates(mesh, i));
+}
+
+absl::Status SceneMeshes::addFace(const aiFace& face, std::uint32_t first) {
+    if (face.mNumIndices < 3) {
+        ++result_.droppedFaces;
+        return absl::OkStatus();
+    }
+    corners_.clear();
+    for (unsigned int i = 0; i < face.mNumIndices; ++i) {
+        if (face.mIndices[i] >= result_.positions.size() - first)
+            return absl::InvalidArgumentError(fmt::format(
+                "found the corner {}, expected a vertex from 0 to {}; export the mesh again",
+                face.mIndices[i], result_.positions.size() - first));
+        corners_.push_back(first + face.mIndices[i]);
+    }
+    if (corners_.size() == 3)
+        result_.triangles.push_back({corners_[0], corners_[1], corners_[2]});
+    else if (!triangulatePolygon(result_.positions, corners_, result_.triangles))
+        return absl::InvalidArgumentError(fmt::format(
+            "found a concave polygon of {} corners, expected at most {}; triangulate it before "
+            "export",
+            corners_.size(), kMaxConcaveCorners));
+    return absl::OkStatus();
+}
+
+absl::Status SceneMeshes::addFaces(const aiMesh& mesh, std::uint32_t first, bool isMirrored) {
+    const std::size_t firstTriangle = result_.triangles.size();
+    for (unsigned int i = 0; i < mesh.mNumFaces; ++i)
+        if (const absl::Status added = addFace(mesh.mFaces[i], first); !added.ok())
+            return fabric::withContext(added,
+                                       fmt::format("mesh '{}', face {}", mesh.mName.C_Str(), i));
+    if (isMirrored)
+        for (std::size_t i = firstTriangle; i < result_.triangles.size(); ++i)
+            std::swap(result_.triangles[i][1], result_.triangles[i][2]);
+    return absl::OkStatus();
+}
+
+absl::Status SceneMeshes::add(unsigned int number, const glm::dmat4& worldFromMesh) {
+    const aiMesh& mesh = *scene_.mMeshes[number];
+    const std::size_t first = result_.positions.size();
+    if (first + mesh.mNumVertices >= std::numeric_limits<std::uint32_t>::max())
+        return absl::InvalidArgumentError(
+            "found more than 2^32 vertices, all instances of meshes counted; import it in parts");
+    RETURN_IF_ERROR(addVertices(mesh, worldFromMesh));
+    if (hasColours_)
+        addColours(mesh, colours_[number]);
+    if (materials_.areAny())
+        addTextureCoordinates(mesh);
+    return addFaces(mesh, static_cast<std::uint32_t>(first),
+                    glm::determinant(glm::dmat3(worldFromMesh)) < 0);
+}
+
+void SceneMeshes::noteWhatIsLeftOut() {
+    if (wrongColours_ > 0)
+        result_.notes.push_back(
+            fmt::format("left out vertices' colours of {} of {} meshes, which are below 0",
+                        wrongColours_, scene_.mNumMeshes));
+    if (scene_.mNumAnimations > 0)
+        result_.notes.push_back(
+            fmt::format("left out its animations, {} of them: everything stays where "
+                        "the file's nodes put it",
+                        scene_.mNumAnimations));
+    const std::span meshes(scene_.mMeshes, scene_.mNumMeshes);
+    const auto bent =
+        std::ranges::count_if(meshes, [](const aiMesh* one) { return one->HasBones(); });
+    if (bent > 0)
+        result_.notes.push_back(
+            fmt::format("left out the skeletons of {} of {} meshes: what these bend or move is as "
+                        "it was made, where its node is",
+                        bent, scene_.mNumMeshes));
+    const auto morphed = std::ranges::count_if(meshes, isMorphed);
+    if (morphed > 0)
+        result_.notes.push_back(
+            fmt::format("left out the morph targets of {} of {} meshes: these have their basic "
+                        "shape; apply the shape keys before export",
+                        morphed, scene_.mNumMeshes));
+}
+
+/// Assimp keeps coordinates in single precision. Of a model around 0 that loses nothing that one
+/// sees; of one that stands in the coordinates of a country it loses decimetres.
+void SceneMeshes::noteRounding() {
+    constexpr double kRounding = 1.0 / (1 << 24);
+    constexpr double kSeen = 1e-5;  // of the longest side
+    fabric::Box bounds;
+    for (const fabric::Vec3& position : result_.positions) bounds.grow(position);
+    const fabric::Vec3 size = bounds.size();
+    const double rounding = farthest_ * kRounding;
+    if (!isOfSinglePrecision(format_) && rounding > kSeen * std::max({size.x, size.y, size.z}))
+        result_.notes.push_back(
+            fmt::format("coordinates are rounded, by up to {:.2g} m: they are far from 0, and of "
+                        "this format read in single precision; export the mesh nearer to 0, or as "
+                        "PLY with coordinates of the type double",
+                        rounding));
+}
+
+absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
+    struct Placed {
+        const aiNode* node;
+        glm::dmat4 worldFromNode;
+    };
+    const double metresPerUnit = metresPerUnitOf(scene_, format_, result_.notes);
+    const glm::dmat4 worldFromScene =
+        glm::scale(zUpFromScene(scene_, format_), glm::dvec3(metresPerUnit));
+    std::vector<Placed> waiting;
+    if (scene_.mRootNode != nullptr)
+        waiting.push_back(
+            {scene_.mRootNode, worldFromScene * toDouble(scene_.mRootNode->mTransformation)});
+    while (!waiting.empty()) {
+        const auto [node, worldFromNode] = waiting.back();
+        waiting.pop_back();
+        for (unsigned int i = 0; i < node->mNumMeshes; ++i)
+            if (node->mMeshes[i] < scene_.mNumMeshes)
+                RETURN_IF_ERROR(add(node->mMeshes[i], worldFromNode));
+        for (unsigned int i = node->mNumChildren; i-- > 0;)
+            waiting.push_back({node->mChildren[i],
+                               worldFromNode * toDouble(node->mChildren[i]->mTransformation)});
+    }
+    if (result_.triangles.empty())
+        return absl::InvalidArgumentError(
+            fmt::format("found no face with three corners or more ({} with fewer), expected at "
+                        "least one; export the mesh again with its faces",
+                        result_.droppedFaces));
+    materials_.moveTo(result_);
+    result_.lights =
+        lightsOf(scene_, format_.extension, worldFromScene, metresPerUnit, result_.notes);
+    if (metresPerUnit != 1)
+        result_.notes.push_back(fmt::format(
+            "brought to metres: the file says that its unit is {:.6g} m", metresPerUnit));
+    noteWhatIsLeftOut();
+    noteRounding();
+    return std::move(result_);
+}
+
+}  // namespace
+
+absl::StatusOr<TriangleMesh> gatherMeshes(const aiScene& scene, const AssimpFormat& format) {
+    return SceneMeshes(scene, format).gather();
+}
+
+}  // namespace eyrie::import
