@@ -11,7 +11,8 @@ namespace eyrie::cli {
 void addCacheOptions(CLI::App& command, CacheOptions& options) {
     command
         .add_option("--cache", options.folder,
-                    "Where imports, and data from URLs, are kept [~/.cache/eyrie]")
+                    "Where imports, and data from URLs, are kept "
+                    "[$XDG_CACHE_HOME/eyrie, or ~/.cache/eyrie]")
         ->type_name("FOLDER");
     command
         .add_option("--cache-size", options.size,

@@ -357,7 +357,10 @@ void addRender(CLI::App& app, Run& run) {
     command->add_option("--fps", options->framesPerSecond, "Of the video, pictures a second")
         ->check(CLI::Range(1, 240))
         ->capture_default_str();
-    command->add_option("--size", options->size, "Of the picture, in pixels, up to 16384 a side")
+    command
+        ->add_option("--size", options->size,
+                     "Of the picture, in pixels, up to 16384 a side; of a video even sides, and as "
+                     "many pixels as 4096x2304 at most")
         ->type_name("WIDTHxHEIGHT")
         ->capture_default_str();
     command->add_option("--tau", options->tau, "Screen-space error allowed, in pixels")

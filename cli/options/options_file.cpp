@@ -9,11 +9,11 @@
 #include <sstream>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/options/near_name.h"
+#include "cli/options/options_text.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli {
@@ -26,14 +26,6 @@ bool isOfTheCommandLineOnly(std::string_view name) {
     return std::ranges::find(kOfTheCommandLineOnly, name) != kOfTheCommandLineOnly.end();
 }
 
-/// Without the mark that editors of Windows put before UTF-8.
-std::istringstream textOf(std::istream& input) {
-    std::string text{std::istreambuf_iterator<char>(input), {}};
-    if (text.starts_with("\xEF\xBB\xBF"))
-        text.erase(0, 3);
-    return std::istringstream(std::move(text));
-}
-
 absl::StatusOr<std::vector<CLI::ConfigItem>> itemsOf(const std::string& path) {
     if (std::error_code error; std::filesystem::is_directory(path, error))
         return absl::InvalidArgumentError(
@@ -41,9 +33,14 @@ absl::StatusOr<std::vector<CLI::ConfigItem>> itemsOf(const std::string& path) {
     std::ifstream input(path);
     if (!input)
         return absl::NotFoundError(fmt::format("--options {}: cannot be read", path));
-    std::istringstream text = textOf(input);
+    const std::string whole{std::istreambuf_iterator<char>(input), {}};
+    const absl::StatusOr<std::string> plain = withoutComments(whole);
+    RETURN_IF_ERROR(fabric::withContext(plain.status(), "--options " + path));
+    std::istringstream text(*plain);
+    CLI::ConfigBase reader;
+    reader.comment('\n');  // none are left, and a '#' in quotes is none
     try {
-        std::vector<CLI::ConfigItem> items = CLI::ConfigBase().from_config(text);
+        std::vector<CLI::ConfigItem> items = reader.from_config(text);
         // CLI11's marks of where sections begin and end.
         std::erase_if(items,
                       [](const auto& item) { return item.name == "++" || item.name == "--"; });

@@ -75,6 +75,17 @@ protected:
     std::string memory_;
 };
 
+TEST_F(Program, ReadsListsOfSeveralLinesAndHashesInQuotes) {
+    write(
+        "[serve]  # of this command\n"
+        "allow-url = [\"https://a/#x\",\n"
+        "\"https://b/\"]  # two\n"
+        "listen = \"file:1\"\n");
+    ASSERT_EQ(errorOf({"serve", "dem.tif", "--options", file_}), "");
+    EXPECT_THAT(urls_, ElementsAre("https://a/#x", "https://b/"));
+    EXPECT_EQ(listen_, "file:1");
+}
+
 TEST_F(Program, TakesTheDefaultWhereNobodySaysAnything) {
     ASSERT_TRUE(run({"serve", "dem.tif"}).ok());
     EXPECT_EQ(listen_, "default:1");
