@@ -99,6 +99,15 @@ std::string commandOf(const v1::Rest& rest) {
     return fmt::format("curl{} -X {}{} '{}'", output, rest.method(), body, url);
 }
 
+/// By HTTP a call may have one field alone as its body, or as its answer.
+std::string alone(const Descriptor& message, const std::string& field, const char* what,
+                  Types& types) {
+    if (field.empty())
+        return "";
+    return fmt::format("<p>By HTTP {} is <code>{}</code> alone: {}.\n", what, field,
+                       typeOf(*message.FindFieldByName(field), types));
+}
+
 std::string callSection(const Route& route, bool isFirst, Types& types) {
     const auto& call = *documentedService().FindMethodByName(route.call->name());
     std::string html;
@@ -114,8 +123,10 @@ std::string callSection(const Route& route, bool isFirst, Types& types) {
     if (call.server_streaming())
         html +=
             "<p>The answer is <code>text/event-stream</code>: one event for each message below.\n";
-    html += "<h4>Asked</h4>\n" + fieldTable(*call.input_type(), types);
-    return html + "<h4>Answered</h4>\n" + fieldTable(*call.output_type(), types);
+    html += "<h4>Asked</h4>\n" + fieldTable(*call.input_type(), types) +
+            alone(*call.input_type(), route.rest.body(), "the body", types);
+    return html + "<h4>Answered</h4>\n" + fieldTable(*call.output_type(), types) +
+           alone(*call.output_type(), route.rest.answer(), "the answer", types);
 }
 
 std::string typeSections(Types& types) {
@@ -141,7 +152,7 @@ std::string errorSection() {
     std::string rows;
     for (const auto code : {absl::StatusCode::kInvalidArgument, absl::StatusCode::kUnauthenticated,
                             absl::StatusCode::kPermissionDenied, absl::StatusCode::kNotFound,
-                            absl::StatusCode::kFailedPrecondition,
+                            absl::StatusCode::kAlreadyExists, absl::StatusCode::kFailedPrecondition,
                             absl::StatusCode::kResourceExhausted, absl::StatusCode::kUnimplemented,
                             absl::StatusCode::kUnavailable, absl::StatusCode::kDeadlineExceeded,
                             absl::StatusCode::kDataLoss, absl::StatusCode::kInternal}) {

@@ -37,6 +37,7 @@ struct AnswerSize {
     std::int64_t height = 0;
 
     std::int64_t area() const { return width * height; }
+    bool hasPixels() const { return width > 0 && height > 0; }
 };
 
 /// The sides that are asked for are those of one eye's picture.
@@ -67,7 +68,7 @@ absl::Status checkSize(const AnswerSize& size, std::int64_t mostPixels) {
 }
 
 /// Of a picture that is asked for part by part.
-absl::Status checkPart(const coordinator::FrameRequest& request, std::int64_t mostPixels) {
+absl::Status checkPart(const coordinator::FrameRequest& request) {
     const fabric::PixelViewport& part = request.part;
     for (const int side : {request.width, request.height})
         if (side < 1 || side > fabric::kMaxViewPixels)
@@ -79,7 +80,7 @@ absl::Status checkPart(const coordinator::FrameRequest& request, std::int64_t mo
         return absl::InvalidArgumentError(
             fmt::format("part is {}x{}+{}+{}; it must lie in the picture of {}x{} pixels",
                         part.width, part.height, part.x, part.y, request.width, request.height));
-    return fabric::withContext(checkSize(answerSize(request), mostPixels), "part");
+    return absl::OkStatus();
 }
 
 /// Of an answer as JSON.
@@ -118,11 +119,13 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const v1::RenderImageRequest
     if (message.has_part()) {
         request.part = {message.part().x(), message.part().y(), message.part().width(),
                         message.part().height()};
-        RETURN_IF_ERROR(quotas.counted(observe::Quota::Image, checkPart(request, mostPixels)));
-    } else {
-        RETURN_IF_ERROR(
-            quotas.counted(observe::Quota::Image, checkSize(answerSize(request), mostPixels)));
+        RETURN_IF_ERROR(checkPart(request));
     }
+    const AnswerSize size = answerSize(request);
+    absl::Status fits = checkSize(size, mostPixels);
+    if (size.hasPixels())  // to ask for none is a mistake, and none of a quota
+        fits = quotas.counted(observe::Quota::Image, fits);
+    RETURN_IF_ERROR(message.has_part() ? fabric::withContext(fits, "part") : fits);
     if (asText)
         RETURN_IF_ERROR(quotas.counted(observe::Quota::Image, checkTextSize(request)));
     ASSIGN_OR_RETURN(request.look, wire::fromMessage(message.look()));

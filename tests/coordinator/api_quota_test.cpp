@@ -68,6 +68,15 @@ TEST_F(ApiQuotas, OfAPicturesPixels) {
     EXPECT_EQ(render(67, 3).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
 }
 
+TEST_F(ApiQuotas, HaveNothingToDoWithMistakesInAPicturesSize) {
+    makeApi();
+    expectRefused(ask("GET", "/image?width=0"), 400, "width makes 0 pixels");
+    expectRefused(ask("GET", "/image?height=-3"), 400, "height makes -3 pixels");
+    expectRefused(ask("POST", "/image", R"({"part":{"x":9000,"width":8,"height":8}})"), 400,
+                  "must lie in the picture");
+    EXPECT_EQ(refusals("image"), 0);
+}
+
 TEST_F(ApiQuotas, OfThePixelsOfTwoEyesInOnePicture) {
     makeApi({.imagePixels = 200});
     const auto image = [&](const char* request) { return ask("POST", "/image", request); };

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <google/protobuf/struct.pb.h>
 #include <gtest/gtest.h>
@@ -152,6 +153,30 @@ TEST_F(Rest, ThePageAndTheDocumentHaveEveryCall) {
                                [](char c) { return static_cast<char>(c - 'A' + 'a'); });
         EXPECT_TRUE(path.struct_value().fields().contains(method)) << route.rest.path();
     }
+}
+
+TEST_F(Rest, ThePageSaysWhichFieldIsTheWholeBodyOrAnswer) {
+    const std::string page = *api_->rest().answer({"GET", "/api"}).body;
+    const auto sectionOf = [&](const std::string& call) {
+        const std::size_t from = page.find("<h2 id=\"" + call + "\"");
+        return page.substr(from, page.find("<h2", from + 1) - from);
+    };
+    for (const Route& route : restRoutes()) {
+        const std::string section = sectionOf(route.call->name());
+        for (const auto& [what, field] : {std::pair("the body", route.rest.body()),
+                                          std::pair("the answer", route.rest.answer())})
+            EXPECT_THAT(
+                section,
+                HasSubstr(field.empty() ? "" : fmt::format("{} is <code>{}</code>", what, field)));
+    }
+    EXPECT_THAT(sectionOf("GetStatus"), Not(HasSubstr("By HTTP")));
+}
+
+TEST_F(Rest, ThePageHasAPlaceForEachErrorThatNamesOne) {
+    const std::string page = *api_->rest().answer({"GET", "/api"}).body;
+    for (const auto code : {absl::StatusCode::kAlreadyExists, absl::StatusCode::kFailedPrecondition,
+                            absl::StatusCode::kInvalidArgument, absl::StatusCode::kNotFound})
+        EXPECT_THAT(page, HasSubstr("<tr id=\"" + absl::StatusCodeToString(code) + "\">"));
 }
 
 TEST_F(Rest, TheDocumentTellsOfTokensAndHeaders) {
