@@ -53,6 +53,9 @@ absl::Status addPiece(MeshSpool& spool, std::uint64_t first, TriangleMesh& piece
     spool.hasNormals = spool.hasNormals || !piece.normals.empty();
     spool.hasColours = spool.hasColours || !piece.colours.empty();
     spool.vertexCount += piece.positions.size();
+    spool.collapsedTriangles += std::erase_if(piece.triangles, [](const mesh::Triangle& corners) {
+        return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+    });
     for (mesh::Triangle& triangle : piece.triangles)
         for (std::uint32_t& corner : triangle) {
             corner += static_cast<std::uint32_t>(first);
@@ -238,14 +241,15 @@ absl::Status placeOnLattice(MeshSpool& spool, int latticeBits, std::uint64_t atO
     control.report("welding", 0);
     ASSIGN_OR_RETURN(spool.lattice, latticeOf(spool, latticeBits));
     RETURN_IF_ERROR(writeTriangles(spool, control));
-    counts.degenerateTriangles = spool.sourceTriangles - spool.triangleCount;
+    counts.degenerateTriangles =
+        spool.collapsedTriangles + spool.sourceTriangles - spool.triangleCount;
     counts.isolatedVertices =
         static_cast<std::uint64_t>(std::count(spool.isUsed.begin(), spool.isUsed.end(), false));
     if (spool.triangleCount == 0)
         return absl::InvalidArgumentError(
             fmt::format("faces: found {} triangles, none with any area, expected at least one; "
                         "export the mesh again with its faces",
-                        spool.sourceTriangles));
+                        spool.collapsedTriangles + spool.sourceTriangles));
     ASSIGN_OR_RETURN(spool.source, RowFile<mesh::Triangle>::create(outPath));  // done with
     RETURN_IF_ERROR(dropDuplicates(spool, atOnce, outPath, counts, control));
     control.report("welding", 1);

@@ -32,6 +32,14 @@ namespace {
 
 constexpr std::size_t kGrain = 16384;
 
+/// Which draws nothing wherever it lies, and so must not reach where nothing else does.
+bool isCollapsed(const TriangleMesh& mesh, const mesh::Triangle& corners) {
+    const fabric::Vec3& a = mesh.positions[corners[0]];
+    const fabric::Vec3& b = mesh.positions[corners[1]];
+    const fabric::Vec3& c = mesh.positions[corners[2]];
+    return a == b || b == c || c == a;
+}
+
 std::vector<std::uint8_t> findUsed(const TriangleMesh& mesh) {
     std::vector<std::uint8_t> used(mesh.positions.size());
     for (const auto& triangle : mesh.triangles)
@@ -223,9 +231,9 @@ void splitAtCreases(Packing& packing, double creaseDegrees, PackCounts& counts) 
     counts.normalsComputed = true;
 }
 
+/// `total`: triangles of the source, of which some are gone already.
 absl::Status dropDegenerate(TriangleMesh& source, const std::vector<VertexKey>& keys,
-                            PackCounts& counts) {
-    const auto total = source.triangles.size();
+                            std::size_t total, PackCounts& counts) {
     std::erase_if(source.triangles,
                   [&keys](const mesh::Triangle& triangle) { return !hasArea(keys, triangle); });
     counts.degenerateTriangles = total - source.triangles.size();
@@ -312,6 +320,10 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
                                           const ImportControl& control) {
     counts = {};
     control.report("welding", 0);
+    const std::size_t total = source.triangles.size();
+    std::erase_if(source.triangles, [&source](const mesh::Triangle& triangle) {
+        return isCollapsed(source, triangle);
+    });
     const std::vector<std::uint8_t> used = findUsed(source);
     ASSIGN_OR_RETURN(const mesh::Lattice lattice,
                      options.lattice
@@ -319,7 +331,7 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
                          : mesh::fitLattice(boundsOf(source, used), options.latticeBits));
     Packing packing{std::move(source), {}, {}, {}, {}};
     packing.keys = latticeKeys(packing.source, used, lattice);
-    RETURN_IF_ERROR(dropDegenerate(packing.source, packing.keys, counts));
+    RETURN_IF_ERROR(dropDegenerate(packing.source, packing.keys, total, counts));
     RETURN_IF_ERROR(control.check());
     packing.byPosition = weld(packing.keys, packing.source.triangles);
     const std::size_t vertices = packing.keys.size();

@@ -360,6 +360,22 @@ TEST(HardCase17, DuplicateFlippedAndZeroAreaTrianglesAndIsolatedVertices) {
     EXPECT_EQ(counts.isolatedVertices, 1U);
 }
 
+TEST(HardCase17, FacesWithoutExtentFarAwayDoNotCoarsenTheLattice) {
+    TriangleMesh mesh = test::tetrahedron();
+    PackCounts counts;
+    const auto near = packMesh(mesh, counts);
+    const auto far = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), 3, {1e12, 0, 0});
+    mesh.triangles.insert(mesh.triangles.end(),
+                          {{far, far, far}, {0, far, far}, {far, far + 1, far + 2}});
+    const auto packed = packMesh(mesh, counts);
+    ASSERT_TRUE(near.ok() && packed.ok()) << near.status() << packed.status();
+    EXPECT_EQ(packed->lattice.stepMetres, near->lattice.stepMetres);
+    EXPECT_EQ(packed->triangles, near->triangles);
+    EXPECT_EQ(counts.degenerateTriangles, 3U);
+    EXPECT_EQ(counts.isolatedVertices, 3U);
+}
+
 TEST(HardCase19, MicrometresBesideATerametreAreStoredWithinTheStatedError) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("m.obj"), "v 1e-6 0 0\nv 1e12 0 0\nv 0 1e12 1e-6\nf 1 2 3\n");

@@ -105,6 +105,14 @@ TEST(MeshImport, ByPartsGivesTheSameOfAnOpenMeshButForItsBacks) {
     expectSameByParts(openBall(40000, 3), {}, expectSameButForBacks);
 }
 
+TEST(MeshImport, ByPartsIsNotCoarsenedByFacesWithACornerTwiceEither) {
+    TriangleMesh ball = synthesizeMesh(60000, 3);
+    const auto far = static_cast<std::uint32_t>(ball.positions.size());
+    ball.positions.emplace_back(1e12, 0, 0);
+    ball.triangles.insert(ball.triangles.begin() + 100, {{far, far, far}, {0, far, far}});
+    expectSameByParts(ball);
+}
+
 /// A ball whose colours vanish from level to level.
 TriangleMesh speckledBall() {
     TriangleMesh ball = synthesizeMesh(60000, 3);
