@@ -159,9 +159,13 @@ bool isSaidToBeNodata(float value, const ValueRule& rule) {
     return value != value || (rule.nodata && value == *rule.nodata);
 }
 
+bool isInReach(double height) {
+    constexpr double kImpossible = 1e30;
+    return std::abs(height) < kImpossible;
+}
+
 bool isPossible(float value, const ValueRule& rule) {
-    constexpr float kImpossible = 1e30F;
-    return std::abs(value) < kImpossible && !(rule.lowestIsNodata && value == -32768.0F);
+    return isInReach(value) && !(rule.lowestIsNodata && value == -32768.0F);
 }
 
 absl::StatusOr<Georeference> georeferenceOf(const std::string& path, GDALDatasetH dataset,
@@ -287,10 +291,12 @@ private:
         const auto nearest = static_cast<float>(value);
         if (isSaidToBeNodata(nearest, rule_))
             return terrain::kNodata;
-        if (isPossible(nearest, rule_))
-            return static_cast<float>(value * rule_.scale + rule_.offset);
+        const bool isHeight = isPossible(nearest, rule_);
+        const double height = value * rule_.scale + rule_.offset;
+        if (isHeight && isInReach(height))
+            return static_cast<float>(height);
         if (!*impossible_)
-            *impossible_ = {column, row, value};
+            *impossible_ = {column, row, isHeight ? height : value};
         return terrain::kNodata;
     }
 

@@ -18,7 +18,7 @@ namespace eyrie::import {
 struct ImpossibleHeight {
     int column = 0;
     int row = 0;
-    double value = 0;  ///< as the file has it
+    double value = 0;  ///< as the file has it, or what its scale and offset make of it
 };
 
 /// One file of heights, as it lies on disk.

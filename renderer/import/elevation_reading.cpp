@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <tbb/parallel_pipeline.h>
 
 #include "fabric/status.h"
@@ -196,6 +197,15 @@ TerrainStages::State readingState(HeightSource& source, terrain::ElevationModel&
         return true;
     };
     return {save, restore};
+}
+
+absl::Status noHeights(const std::string& name, const HeightSource& source) {
+    const std::vector<std::string> findings = source.findings();
+    return absl::InvalidArgumentError(
+        findings.empty()
+            ? fmt::format("{}: all posts are nodata; check the nodata value", name)
+            : fmt::format("{}: all posts are nodata: {}; check the nodata value, scale and offset",
+                          name, findings.front()));
 }
 
 void countTile(const terrain::GridFrame& frame, std::int32_t x, std::int32_t y, const float* posts,

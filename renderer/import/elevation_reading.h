@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include <absl/status/status.h>
 
@@ -31,6 +32,9 @@ absl::Status readElevation(HeightSource& source, const terrain::Scratch& scratch
 /// What reading leaves in memory: of `model`, and what was found in the posts of `source`. Refers
 /// to both.
 TerrainStages::State readingState(HeightSource& source, terrain::ElevationModel& model);
+
+/// What is wrong with a source, called `name`, all of whose posts are nodata.
+absl::Status noHeights(const std::string& name, const HeightSource& source);
 
 /// Adds up the posts of a tile of `frame` but for those that a next tile has, too: over all tiles
 /// each post counts once. Rows of `posts` are `stride` apart.

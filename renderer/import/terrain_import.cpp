@@ -163,8 +163,7 @@ private:
         if (imagery_ == nullptr)  // which is read through the same cache
             scratch_.grow(posts_.release());
         if (model_.statistics.min > model_.statistics.max)
-            return absl::InvalidArgumentError(
-                fmt::format("{}: all posts are nodata; check the nodata value", source_.name));
+            return noHeights(source_.name, posts_);
         const double postMetres = model_.frame.postMetres();
         const terrain::HeightLattice lattice = chooseHeightLattice(model_.statistics, postMetres);
         vertexLevels_.setThresholds(

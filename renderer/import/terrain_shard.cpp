@@ -114,8 +114,7 @@ private:
         ASSIGN_OR_RETURN(model_.statistics, shareFacts(out_, identity_, plan_, shard_,
                                                        model_.statistics, posts_, control_));
         if (model_.statistics.min > model_.statistics.max)
-            return absl::InvalidArgumentError(
-                fmt::format("{}: all posts are nodata; check the nodata value", source_.name));
+            return noHeights(source_.name, posts_);
         const double postMetres = model_.frame.postMetres();
         const terrain::HeightLattice lattice = chooseHeightLattice(model_.statistics, postMetres);
         vertexLevels_.setThresholds(

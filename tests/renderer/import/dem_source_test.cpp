@@ -200,6 +200,13 @@ TEST_F(DemSource, ReadsEverythingThatIsNoHeightAsNodata) {
                 testing::ElementsAre(HasSubstr("3.4028235e+38 in column 2 and row 0")));
 }
 
+TEST_F(DemSource, SaysWhereOnlyScaleOrOffsetMakeHeightsImpossible) {
+    const auto dem = test::readDem(virtualRaster("", "<Offset>0</Offset><Scale>1e38</Scale>"));
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_EQ(std::ranges::count_if(dem->grid.heights, [](float h) { return std::isnan(h); }), 5);
+    EXPECT_THAT(dem->findings, testing::ElementsAre(HasSubstr("1e+38 in column 1 and row 0")));
+}
+
 TEST_F(DemSource, ReadsTheLowest16BitValueAsNodata) {
     const auto dem = test::readDem(
         virtualRaster("", "<NoDataValue>-32678</NoDataValue><Offset>0</Offset>", "Int16"));
