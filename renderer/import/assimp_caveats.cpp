@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/assimp_caveats.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -41,6 +43,34 @@ std::vector<std::string> colladaCaveats(std::string_view text) {
     return {};
 }
 
+/// Assimp takes what there is.
+std::vector<std::string> stlCaveats(std::string_view text) {
+    const bool isText = text.starts_with("solid") && text.substr(0, 84).find('\0') == text.npos;
+    if (!isText || text.rfind("endsolid") != text.npos)
+        return {};
+    return {
+        "it ends without 'endsolid', as files do that were cut off: copy or export it again if "
+        "anything is missing"};
+}
+
+std::vector<std::string> objCaveats(std::string_view text) {
+    constexpr std::array<std::string_view, 8> kLeftOut = {"surf ", "curv ", "curv2 ", "bzp ",
+                                                          "bsp ",  "cdc ",  "cdp ",   "call "};
+    std::uint64_t lines = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::string_view line = text.substr(at);
+        const auto begins = [&](std::string_view word) { return line.starts_with(word); };
+        lines += std::ranges::any_of(kLeftOut, begins) ? 1 : 0;
+        at = std::min(text.find('\n', at), text.size() - 1) + 1;
+    }
+    if (lines == 0)
+        return {};
+    return {fmt::format(
+        "left out {} free-form surfaces, curves or calls of other files: turn them into polygons, "
+        "of this file, before export",
+        lines)};
+}
+
 }  // namespace
 
 std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpFormat& format) {
@@ -51,6 +81,10 @@ std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpF
         return x3dCaveats(text);
     if (format.extension == ".dae")
         return colladaCaveats(text);
+    if (format.extension == ".stl")
+        return stlCaveats(text);
+    if (format.extension == ".obj")
+        return objCaveats(text);
     const bool isPlaced = text.find("\nloc ") != std::string_view::npos ||
                           text.find("\nrot ") != std::string_view::npos;
     if (!format.extension.starts_with(".ac") || !isPlaced)

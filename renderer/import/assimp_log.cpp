@@ -33,9 +33,21 @@ std::string_view textOf(std::string_view line) {
 
 /// Of what is drawn. Animations, bones, lines and the like are not, nor what nobody asked for.
 bool tellsOfALoss(std::string_view text) {
-    constexpr std::array kLosses = {"dropped",       "kipping",         "discarding",
-                                    "invalid index", "will be ignored", "out-of-range",
-                                    "out of range"};
+    constexpr std::array kLosses = {"dropped",
+                                    "kipping",
+                                    "discarding",
+                                    "invalid index",
+                                    "out-of-range",
+                                    "out of range",
+                                    "gnoring",
+                                    "will be ignored",
+                                    "nsupported",
+                                    "not implemented",
+                                    "not currently impl",
+                                    "failed to resolve",
+                                    "failed to convert",
+                                    "failed to generate",
+                                    "did not encounter"};
     constexpr std::array kOthers = {
         "nimation", "bone",     "Bone",   "umbNail", "OptimizeMeshes", "property",
         "Property", "settings", "Weight", "TCB",     "IfcPolyline",    "lines with the same"};

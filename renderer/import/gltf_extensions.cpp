@@ -67,15 +67,41 @@ absl::Status notRead(std::string_view extension) {
                     isPacked ? ", with EXT_meshopt_compression, or compressed by Draco" : ""));
 }
 
-/// What is left out of textures that have no image but an extension's; empty where there are none.
-std::string textureCaveat(std::string_view json, const std::string& extension) {
+nlohmann::json parsed(std::string_view json) {
     using Json = nlohmann::json;
     const auto isNear = [](int depth, Json::parse_event_t, Json&) { return depth < 8; };
-    const Json root = Json::parse(json, isNear, false);
+    return Json::parse(json, isNear, false);
+}
+
+/// Assimp knows the weights of meshes, and not those that nodes have in their place.
+std::string morphCaveat(std::string_view json) {
+    const nlohmann::json root = parsed(json);
+    const auto nodes = root.find("nodes");
+    if (nodes == root.end())
+        return {};
+    const auto isMorphed = [](const nlohmann::json& node) {
+        const auto weights = node.find("weights");
+        return node.contains("mesh") && weights != node.end() &&
+               std::ranges::any_of(*weights, [](const nlohmann::json& weight) {
+                   return weight.is_number() && weight != 0;
+               });
+    };
+    const auto morphed = std::ranges::count_if(*nodes, isMorphed);
+    return morphed == 0
+               ? ""
+               : fmt::format(
+                     "left out the weights of morph targets of {} nodes: their meshes have "
+                     "their basic shape; apply the shape keys before export",
+                     morphed);
+}
+
+/// What is left out of textures that have no image but an extension's; empty where there are none.
+std::string textureCaveat(std::string_view json, const std::string& extension) {
+    const nlohmann::json root = parsed(json);
     const auto textures = root.find("textures");
     if (textures == root.end())
         return {};
-    const auto isLost = [&](const Json& texture) {
+    const auto isLost = [&](const nlohmann::json& texture) {
         const auto extensions = texture.find("extensions");
         return extensions != texture.end() && extensions->contains(extension) &&
                !texture.contains("source");
@@ -116,6 +142,9 @@ std::vector<std::string> gltfCaveats(std::span<const std::byte> bytes) {
             if (std::string caveat = textureCaveat(json, extension); !caveat.empty())
                 caveats.push_back(std::move(caveat));
     }
+    if (json.find("\"weights\"") != json.npos)
+        if (std::string caveat = morphCaveat(json); !caveat.empty())
+            caveats.push_back(std::move(caveat));
     return caveats;
 }
 

@@ -162,10 +162,59 @@ TEST(AssimpReader, SaysThatShapesAndSkeletonsAreLeftOut) {
     EXPECT_THAT(notesOf(gltfOfATriangle(R"(, "weights": [0])", "", "")), IsEmpty());
     EXPECT_THAT(notesOf(gltfOfATriangle(R"(, "weights": [0.5])", "", "")),
                 ElementsAre(HasSubstr("morph targets of 1 of 1 meshes")));
+    EXPECT_THAT(notesOf(gltfOfATriangle("", R"(, "weights": [0])", "")), IsEmpty());
+    EXPECT_THAT(notesOf(gltfOfATriangle("", R"(, "weights": [0.5])", "")),
+                ElementsAre(HasSubstr("weights of morph targets of 1 nodes")));
     EXPECT_THAT(
         notesOf(gltfOfATriangle("", R"(, "skin": 0)",
                                 R"("skins": [{"joints": [1], "inverseBindMatrices": 3}],)")),
         ElementsAre(HasSubstr("skeletons of 1 of 1 meshes")));
+}
+
+TEST(AssimpReader, SaysWhatFilesLackThatWereCutOffOrAreReadInPart) {
+    const test::TemporaryFolder folder;
+    const auto notesOf = [&](const std::string& name, const std::string& text) {
+        test::writeFile(folder.file(name), text);
+        const auto mesh = readWithAssimp(folder.file(name));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        return mesh.ok() ? mesh->notes : std::vector<std::string>();
+    };
+    const std::string facet =
+        "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+        "endloop\nendfacet\n";
+    EXPECT_THAT(notesOf("m.stl", "solid a\n" + facet + facet + "endsolid a\n"), IsEmpty());
+    EXPECT_THAT(notesOf("m.stl", "solid a\n" + facet + facet),
+                ElementsAre(HasSubstr("without 'endsolid'")));
+
+    const std::string face = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    EXPECT_THAT(notesOf("m.obj", face), IsEmpty());
+    EXPECT_THAT(notesOf("m.obj", face + "cstype bezier\nsurf 0 1 0 1 1 2 3\nend\n"),
+                ElementsAre(HasSubstr("left out 1 free-form surfaces")));
+}
+
+/// A face that is put in once, turned by so many degrees, in a file that may be cut off.
+std::string dxfOfABlock(int degrees, std::string_view end) {
+    return fmt::format(
+        "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n8\n0\n2\nB1\n70\n0\n10\n0\n20\n0\n30\n0\n0\n3DFACE\n8\n0"
+        "\n"
+        "10\n0\n20\n0\n30\n0\n11\n10\n21\n0\n31\n0\n12\n10\n22\n1\n32\n0\n13\n0\n23\n1\n33\n0\n0\n"
+        "ENDBLK\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nINSERT\n8\n0\n2\nB1\n10\n0\n20\n0\n30\n0\n"
+        "50\n{}\n0\nENDSEC\n{}",
+        degrees, end);
+}
+
+TEST(AssimpReader, SaysThatBlocksOfDxfAreNotTurned) {
+    const test::TemporaryFolder folder;
+    const auto notesOf = [&](const std::string& text) {
+        test::writeFile(folder.file("m.dxf"), text);
+        const auto mesh = readWithAssimp(folder.file("m.dxf"));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        return mesh.ok() ? mesh->notes : std::vector<std::string>();
+    };
+    EXPECT_THAT(notesOf(dxfOfABlock(0, "0\nEOF\n")), IsEmpty());
+    EXPECT_THAT(notesOf(dxfOfABlock(90, "0\nEOF\n")),
+                ElementsAre(HasSubstr("BLOCK rotation not currently implemented")));
+    EXPECT_THAT(notesOf(dxfOfABlock(0, "")), ElementsAre(HasSubstr("did not encounter DXF EOF")));
 }
 
 /// Of two triangles, the second of which may have a corner that is no vertex.
