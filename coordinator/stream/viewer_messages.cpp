@@ -40,6 +40,12 @@ v1::RendererCondition toMessage(coordinator::RendererCondition condition) {
     return v1::RENDERER_CONDITION_REFUSED;
 }
 
+void setVector(const fabric::Vec3& value, v1::Vector3& message) {
+    message.set_x(value.x);
+    message.set_y(value.y);
+    message.set_z(value.z);
+}
+
 void setSeen(const fabric::SeenAreas& areas, v1::Frame& frame) {
     if (!areas)
         return;
@@ -240,6 +246,8 @@ std::string frameMessage(const EncodedFrame& encoded, const coordinator::Rendere
     *frame.mutable_statistics() = statisticsMessage(rendered, picture.width, picture.height);
     if (encoded.liftedCamera)
         *frame.mutable_lifted_camera() = wire::toMessage(*encoded.liftedCamera);
+    if (encoded.lift)
+        setVector(*encoded.lift, *frame.mutable_lift());
     if (encoded.ledView)
         *frame.mutable_led_view() = toMessage(*encoded.ledView);
     return response.SerializeAsString();

@@ -63,6 +63,9 @@ TEST(Viewer, LetsACameraUnderGroundThatIsMeantToBeThere) {
     ASSERT_TRUE(frame.has_value());
     EXPECT_FALSE(frame->has_lifted_camera());
     EXPECT_EQ(frames.requests().back().camera.eye.z, 3);
+    ASSERT_TRUE(frame->has_lift());
+    EXPECT_EQ(frame->lift().x(), 0);
+    EXPECT_EQ(frame->lift().z(), 99);
     browser.acknowledge(frame->frame_number());
     request.mutable_view()->set_underground(false);
     browser.send(request);
@@ -78,8 +81,13 @@ TEST(Viewer, LeavesACameraAboveGroundAsItIs) {
     request.mutable_view()->mutable_camera()->set_eye(2, 103);
     request.mutable_view()->mutable_look()->set_exaggeration(-2);
     browser.send(request);
-    EXPECT_FALSE(browser.nextFrame()->has_lifted_camera());
+    const auto frame = browser.nextFrame();
+    EXPECT_FALSE(frame->has_lifted_camera());
     EXPECT_EQ(frames.requests().back().look.exaggeration, -2);
+    browser.acknowledge(frame->frame_number());
+    request.mutable_view()->set_underground(true);
+    browser.send(request);
+    EXPECT_FALSE(browser.nextFrame()->has_lift());
 }
 
 v1::ViewerRequest viewIn(double time) {
