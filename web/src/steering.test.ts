@@ -45,6 +45,20 @@ describe("Steering", () => {
     expect(steering.goesUnderground).toBe(false);
   });
 
+  it("comes out of the ground where a walk ends, before a picture shows it lifted", () => {
+    for (const underground of [false, true]) {
+      const { steering, state } = make();
+      state.look.set({ ...state.look.value, underground });
+      steering.setWalking(true);
+      expect(steering.camera?.eye[2]).toBeCloseTo(1.7);
+      steering.liftedTo(undefined, [0, 0, 0.3], 1);
+      steering.setWalking(false);
+      const z = underground ? 1.7 : 2;
+      expect(steering.camera?.eye[2]).toBeCloseTo(z);
+      expect(steering.camera?.target[2]).toBeCloseTo(z);
+    }
+  });
+
   it("is kept above ground after a flight that was there, and in another view", () => {
     const { steering } = make();
     steering.moveAlong(at(1, 90));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Camera, Vec3 } from "./camera/camera";
-import { isUsable } from "./camera/camera";
+import { add, isUsable } from "./camera/camera";
 import type { CameraHolder } from "./camera/controls";
 import { Controls } from "./camera/controls";
 import type { Keys } from "./camera/fly";
@@ -123,9 +123,17 @@ export class Steering implements CameraHolder {
     if (isWalking && this.camera !== null) this.walker.begin(this.camera);
     else {
       this.walker.end();
+      this.comeOut();
       this.walked = this.camera;
     }
     this.events.changed();
+  }
+
+  /** To where the server would lift the eye, before it does: no picture looks down from there. */
+  private comeOut(): void {
+    const isFree = this.goesUnderground || this.state.look.value.underground;
+    if (this.camera === null || this.lift === undefined || isFree) return;
+    this.camera = seenFrom(this.camera, add(this.camera.eye, this.lift));
   }
 
   private keepWalkerOnGround(): void {
