@@ -69,6 +69,15 @@ v1::ObjectState toMessage(fabric::ObjectKind kind, const fabric::ObjectInfo& inf
     return state;
 }
 
+/// From the terrain's height 0 to its lowest and highest ground.
+fabric::Box heightsOf(const fabric::GroundGrid& grid) {
+    const fabric::Vec3 up(grid.worldFromGrid[2]);
+    fabric::Box heights;
+    heights.grow(up * static_cast<double>(grid.lowest));
+    heights.grow(up * static_cast<double>(*std::ranges::max_element(grid.highest)));
+    return heights;
+}
+
 FrameAck ackFromMessage(const v1::FrameAck& message) {
     FrameAck ack{message.frame_number()};
     if (message.has_received_bytes())
@@ -196,6 +205,11 @@ v1::SessionState sessionState(const coordinator::Status& status, std::string_vie
         for (std::size_t i = 0; i < status.scene.objects.size(); ++i)
             *state.add_objects() =
                 toMessage(status.scene.objects[i].kind, status.sceneInfo.objects[i]);
+    if (status.sceneInfo.ground)
+        for (const fabric::GroundGrid& grid : *status.sceneInfo.ground)
+            if (grid.object < state.objects_size() && !grid.highest.empty())
+                *state.mutable_objects(grid.object)->mutable_heights() =
+                    wire::toMessage(heightsOf(grid));
     for (const coordinator::CanvasStatus& canvas : status.canvases) {
         v1::CanvasState& message = *state.add_canvases();
         message.set_name(sanitised(canvas.name));

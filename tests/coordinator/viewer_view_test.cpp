@@ -37,6 +37,21 @@ coordinator::Status plateauStatus() {
     return status;
 }
 
+TEST(SessionState, SaysWhichHeightsAreExaggerated) {
+    coordinator::Status status = plateauStatus();
+    EXPECT_EQ(sessionState(status, "").objects(0).heights().max().z(), 100);
+    fabric::GroundGrid turned = status.sceneInfo.ground->front();
+    turned.worldFromGrid[2] = {0, -2, 0, 0};
+    turned.lowest = 30;
+    status.sceneInfo.ground = std::make_shared<const std::vector<fabric::GroundGrid>>(1, turned);
+    const v1::Box heights = sessionState(status, "").objects(0).heights();
+    EXPECT_EQ(heights.min().y(), -200);
+    EXPECT_EQ(heights.max().y(), -60);
+    EXPECT_EQ(heights.max().z(), 0);
+    status.sceneInfo.ground.reset();
+    EXPECT_FALSE(sessionState(status, "").objects(0).has_heights());
+}
+
 TEST(Viewer, LiftsACameraOutOfTheGroundAndSaysSo) {
     FakeFrameSource frames;
     frames.setStatus(plateauStatus());
