@@ -169,10 +169,10 @@ Observer readObserver(const Statement& block, ValueReader& reader) {
               reader.text(each, observer.vrpnTracker);
               reader.hasNoEffect(each, kHeadByApi);
           }}});
-    if (!(observer.focusDistance > 0))
+    if (!(observer.focusDistance > 0 && observer.focusDistance <= kMostEyeMetres))
         reader.findings().error(block.place, fmt::format("an observer's focus distance is {}; it "
-                                                         "must be above 0",
-                                                         observer.focusDistance));
+                                                         "must be above 0 and at most {}",
+                                                         observer.focusDistance, kMostEyeMetres));
     return observer;
 }
 

@@ -15,6 +15,9 @@ Surface readWall(const Statement& block, ValueReader& reader);
 Surface readProjection(const Statement& block, ValueReader& reader);
 SwapBarrier readSwapBarrier(const Statement& block, ValueReader& reader);
 
+/// Of eye bases and focus distances: sums of such are exact enough.
+inline constexpr double kMostEyeMetres = 1e6;
+
 Observer readObserver(const Statement& block, ValueReader& reader);
 Layout readLayout(const Statement& block, const Configuration& before, ValueReader& reader);
 Canvas readCanvas(const Statement& block, const Configuration& before, ValueReader& reader);

@@ -16,8 +16,6 @@
 namespace eyrie::config {
 namespace {
 
-constexpr double kMostEyeMetres = 1e6;  // that sums of such are exact enough
-
 std::string layoutsOf(const Configuration& configuration, const Canvas& canvas) {
     std::string names;
     for (const std::optional<std::size_t>& layout : canvas.layouts)

@@ -56,6 +56,15 @@ coordinator::FrameRequest drawingOf(const ViewRequest& view, const fabric::Scene
     return request;
 }
 
+std::optional<fabric::Vec3> liftOf(const ViewRequest& view, const fabric::SceneInfo* scene) {
+    if (scene == nullptr || !scene->ground || !view.isUnderground)
+        return std::nullopt;
+    const fabric::Vec3& eye = view.frame.camera.eye;
+    const fabric::Camera lifted =
+        fabric::aboveGround(view.frame.camera, *scene->ground, view.frame.look);
+    return lifted.eye == eye ? std::nullopt : std::optional(lifted.eye - eye);
+}
+
 double stretchOf(const ViewRequest& view, const coordinator::FrameRequest& asked,
                  const fabric::PixelViewport& drawn) {
     double within = 1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,10 @@ double movingScale(const ViewRequest& view, const PictureSource* source);
 /// sides `scale` of what they are, at the same error in metres.
 coordinator::FrameRequest drawingOf(const ViewRequest& view, const fabric::SceneInfo* scene,
                                     double scale);
+
+/// How far the eye of a view that may be under ground would be lifted otherwise; nothing where that
+/// is not at all.
+std::optional<fabric::Vec3> liftOf(const ViewRequest& view, const fabric::SceneInfo* scene);
 
 /// Pixels of the view that one of the picture covers, the longer way: `asked` for, and `drawn`
 /// smaller than that where it was to hold a time. 1 or more.

@@ -18,6 +18,7 @@ struct Picture {
     std::shared_ptr<const coordinator::RenderedFrame> frame;
     Clock::time_point started;
     std::optional<fabric::Camera> liftedCamera = {};  ///< shown where the view's is under ground
+    std::optional<fabric::Vec3> lift = {};            ///< where it is, and may be: see liftOf()
     int level = 0;           ///< the best of QualityControl's that it is large enough for
     bool isReduced = false;  ///< drawn smaller than asked for, for a link's or a time's sake
     std::vector<coordinator::Shown> shown = {};  ///< the outputs that were asked for

@@ -100,6 +100,7 @@ void Seat::give(std::shared_ptr<const EncodedPicture> encoded, const QualityClas
     frame.output = as.output;
     frame.swap = swap;
     frame.liftedCamera = picture.liftedCamera;
+    frame.lift = picture.lift;
     const ViewRequest& view = progress.answered(picture);
     if (view.viewer == id)
         frame.viewSequence = view.sequence;

@@ -139,6 +139,7 @@ Session::Impl::Begun Session::Impl::begin() {
                                   : std::min(QualityControl::level(begun.level).scale,
                                              movingScale(begun.view, source));
     begun.request = drawingOf(begun.view, source != nullptr ? &source->sceneInfo : nullptr, scale);
+    begun.lift = liftOf(begun.view, source != nullptr ? &source->sceneInfo : nullptr);
     if (isAtRest)
         begun.request.budgetMilliseconds.reset();
     begun.request.session = number_;
@@ -195,6 +196,7 @@ void Session::Impl::rendered(const Begun& begun, absl::StatusOr<coordinator::Ren
         picture.shown = begun.request.shown;
         if (!(begun.request.camera == begun.view.frame.camera))
             picture.liftedCamera = begun.request.camera;
+        picture.lift = begun.lift;
         progress_.rendered(std::move(picture), now);
         drawForAll();
         encodings_.clear();

@@ -101,6 +101,7 @@ private:
         coordinator::FrameRequest request;
         Clock::time_point at;
         int level = 0;
+        std::optional<fabric::Vec3> lift = {};
     };
     Begun begin();
     void renderOne(std::unique_lock<std::mutex>& lock);

@@ -40,6 +40,12 @@ v1::RendererCondition toMessage(coordinator::RendererCondition condition) {
     return v1::RENDERER_CONDITION_REFUSED;
 }
 
+void setVector(const fabric::Vec3& value, v1::Vector3& message) {
+    message.set_x(value.x);
+    message.set_y(value.y);
+    message.set_z(value.z);
+}
+
 void setSeen(const fabric::SeenAreas& areas, v1::Frame& frame) {
     if (!areas)
         return;
@@ -61,6 +67,15 @@ v1::ObjectState toMessage(fabric::ObjectKind kind, const fabric::ObjectInfo& inf
     *state.mutable_bounds() = wire::toMessage(info.bounds);
     state.set_triangles(info.triangles);
     return state;
+}
+
+/// From the terrain's height 0 to its lowest and highest ground.
+fabric::Box heightsOf(const fabric::GroundGrid& grid) {
+    const fabric::Vec3 up(grid.worldFromGrid[2]);
+    fabric::Box heights;
+    heights.grow(up * static_cast<double>(grid.lowest));
+    heights.grow(up * static_cast<double>(*std::ranges::max_element(grid.highest)));
+    return heights;
 }
 
 FrameAck ackFromMessage(const v1::FrameAck& message) {
@@ -190,6 +205,11 @@ v1::SessionState sessionState(const coordinator::Status& status, std::string_vie
         for (std::size_t i = 0; i < status.scene.objects.size(); ++i)
             *state.add_objects() =
                 toMessage(status.scene.objects[i].kind, status.sceneInfo.objects[i]);
+    if (status.sceneInfo.ground)
+        for (const fabric::GroundGrid& grid : *status.sceneInfo.ground)
+            if (grid.object < state.objects_size() && !grid.highest.empty())
+                *state.mutable_objects(grid.object)->mutable_heights() =
+                    wire::toMessage(heightsOf(grid));
     for (const coordinator::CanvasStatus& canvas : status.canvases) {
         v1::CanvasState& message = *state.add_canvases();
         message.set_name(sanitised(canvas.name));
@@ -240,6 +260,8 @@ std::string frameMessage(const EncodedFrame& encoded, const coordinator::Rendere
     *frame.mutable_statistics() = statisticsMessage(rendered, picture.width, picture.height);
     if (encoded.liftedCamera)
         *frame.mutable_lifted_camera() = wire::toMessage(*encoded.liftedCamera);
+    if (encoded.lift)
+        setVector(*encoded.lift, *frame.mutable_lift());
     if (encoded.ledView)
         *frame.mutable_led_view() = toMessage(*encoded.ledView);
     return response.SerializeAsString();

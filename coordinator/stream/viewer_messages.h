@@ -133,6 +133,7 @@ struct EncodedFrame {
     std::uint64_t viewSequence = 0;
     std::shared_ptr<const EncodedPicture> picture;
     std::optional<fabric::Camera> liftedCamera = {};  ///< shown in place of the one asked for
+    std::optional<fabric::Vec3> lift = {};            ///< of an eye that may be under ground
     std::optional<ViewRequest> ledView = {};          ///< that another viewer asked for
     double linkBytesPerSecond = 0;                    ///< 0: not known
     std::size_t output = 0;                           ///< in RenderedFrame::pictures

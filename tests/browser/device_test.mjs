@@ -5,6 +5,32 @@ import { check, environment, panelWidth, run, ServerProcess } from "./support.mj
 const viewport = { width: 900 + panelWidth, height: 546 };
 const device = { viewport, deviceScaleFactor: 2, hasTouch: true };
 
+/** Runs in the page: what overlaps of what is seen. */
+function coveredPairs() {
+  const seen = ["readout", "recording", "pick", "measure", "notice", "mode", "panel"].map((id) => {
+    const element = document.getElementById(id);
+    const box = element.getBoundingClientRect();
+    const frame = element.closest(".cards, body").getBoundingClientRect();
+    return {
+      id,
+      left: Math.max(box.left, frame.left),
+      right: Math.min(box.right, frame.right),
+      top: Math.max(box.top, frame.top),
+      bottom: Math.min(box.bottom, frame.bottom),
+    };
+  });
+  return seen.flatMap((a, i) =>
+    seen
+      .slice(i + 1)
+      .filter(
+        (b) =>
+          Math.min(a.right, b.right) > Math.max(a.left, b.left) &&
+          Math.min(a.bottom, b.bottom) > Math.max(a.top, b.top),
+      )
+      .map((b) => `${a.id} and ${b.id}`),
+  );
+}
+
 await run("device_test", async (browser, started) => {
   const web = environment("EYRIE_WEB_FOLDER");
   const server = started(await ServerProcess.start(environment("EYRIE_FAKE_SERVER"), [web], 20));
@@ -88,21 +114,39 @@ await run("device_test", async (browser, started) => {
   }
   check(crowded.length === 0, `the bar has room for all of it at any width ${crowded.join()}`);
 
-  await page.keyboard.press("b");
-  const overlaps = [];
-  for (const width of [320, 480, 701, 800, 1100]) {
-    await page.setViewportSize({ width, height: 568 });
-    const isOver = await page.evaluate(() => {
-      const [recording, ...others] = ["#recording", "#readout", "#pick"].map((name) =>
-        document.querySelector(name).getBoundingClientRect(),
-      );
-      return others.some(
-        ({ left, right, top, bottom }) =>
-          Math.min(right, recording.right) > Math.max(left, recording.left) &&
-          Math.min(bottom, recording.bottom) > Math.max(top, recording.top),
-      );
-    });
-    if (isOver) overlaps.push(width);
+  // As much as can be said at once.
+  await page.keyboard.press("m");
+  for (const key of ["Shift+ArrowRight", "Shift+ArrowDown", "Shift+ArrowLeft"]) {
+    await page.keyboard.press(key);
+    await browser.settled();
+    await page.keyboard.press(" ");
+    await page.locator("#pick", { hasText: "hill" }).waitFor();
   }
-  check(overlaps.length === 0, `nor does what is said on the picture overlap ${overlaps.join()}`);
+  await page.locator("#measure", { hasText: "Area" }).waitFor();
+  await page.keyboard.press("v");
+  await page.locator("#measure .chart").waitFor();
+  await page.keyboard.press("b");
+  await page.keyboard.press("f");
+  const covered = [];
+  for (const [width, height] of [
+    [1280, 720],
+    [800, 500],
+    [640, 400],
+    [320, 568],
+  ]) {
+    await page.setViewportSize({ width, height });
+    for (const isPanelShown of [true, false]) {
+      if ((await page.locator("#panel").isVisible()) !== isPanelShown)
+        await page.keyboard.press("p");
+      await page.keyboard.press("k"); // says that the command is copied
+      await page.locator("#notice:not(.is-empty)").waitFor();
+      covered.push(...(await page.evaluate(coveredPairs)).map((pair) => `${width}: ${pair}`));
+    }
+    for (const name of ["Close", "×"])
+      await page.locator(".pick").getByText(name, { exact: true }).click({ trial: true });
+  }
+  check(
+    covered.length === 0,
+    `nothing that is said on the picture covers another, nor the panel ${covered.join()}`,
+  );
 });

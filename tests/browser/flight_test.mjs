@@ -75,6 +75,19 @@ await run("flight_test", async (browser, started) => {
   await page.getByLabel("Name of the flight").press("Enter");
   await notice("Kept as cub u");
   await canvas.focus();
+  const loads = ["Load flight", "cub u"].map((name) =>
+    page.getByRole("button", { name, exact: true }),
+  );
+  const areDisabled = () => Promise.all(loads.map((load) => load.isDisabled()));
+  await page.keyboard.press("b");
+  check(
+    (await areDisabled()).every(Boolean) &&
+      (await loads[0].getAttribute("title")).includes("End the recording"),
+    "no other flight takes the place of what is recorded",
+  );
+  await page.keyboard.press("b");
+  await notice("Nothing moved");
+  check(!(await areDisabled()).some(Boolean), "until that has ended");
   await page.keyboard.press("r");
   await page.keyboard.press("y");
   await page.waitForFunction(

@@ -101,12 +101,12 @@ TEST(EqcErrors, AreImpossibleShares) {
             << compound;
 }
 
-TEST(EqcErrors, AreFocusesThatAreNotAhead) {
-    for (const char* distance : {"0", "-2"})
+TEST(EqcErrors, AreFocusesThatAreNotAheadOrTooFar) {
+    for (const char* distance : {"0", "-2", "1000001"})
         EXPECT_THAT(
             firstError(std::string("config { observer { focus_distance ") + distance + " } }"),
             HasSubstr(std::string("1:10 an observer's focus distance is ") + distance +
-                      "; it must be above 0"));
+                      "; it must be above 0 and at most 1000000"));
 }
 
 TEST(EqcErrors, AreEyesThatAreNotBeforeTheirWall) {

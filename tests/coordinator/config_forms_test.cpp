@@ -268,13 +268,15 @@ TEST(ConfigurationStateMessage, WithAnErrorChangesNothing) {
     wrong.mutable_heads(0)->add_room_from_head(0);
     EXPECT_FALSE(change(wrong, configuration, changed).ok());
     EXPECT_EQ(changed, state);
-    for (const char* const setting : {"base", "distance", "mode"}) {
+    for (const char* const setting : {"base", "distance", "far", "mode"}) {
         v1::ConfigurationState blind = toMessage(configuration, state);
         v1::ObserverSetting& observer = *blind.mutable_observers(0);
         if (setting == std::string("base"))
             observer.set_eye_base(-.1);
         else if (setting == std::string("distance"))
             observer.set_focus_distance(0);
+        else if (setting == std::string("far"))
+            observer.set_focus_distance(1e300);
         else
             observer.set_focus_mode(static_cast<v1::FocusMode>(4));
         EXPECT_FALSE(change(blind, configuration, changed).ok()) << setting;

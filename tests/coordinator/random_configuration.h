@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
@@ -152,7 +153,7 @@ private:
         made.eyeLeft = maybe([&] { return vector(); });
         made.eyeCyclop = maybe([&] { return vector(); });
         made.eyeRight = maybe([&] { return vector(); });
-        made.focusDistance = any({1.0, std::abs(number())});
+        made.focusDistance = any({1.0, std::min(std::abs(number()), 1e6)});
         made.focusMode =
             any({FocusMode::Fixed, FocusMode::RelativeToOrigin, FocusMode::RelativeToObserver});
         made.openCvCamera = any({"", "ON", "007"});

@@ -37,6 +37,21 @@ coordinator::Status plateauStatus() {
     return status;
 }
 
+TEST(SessionState, SaysWhichHeightsAreExaggerated) {
+    coordinator::Status status = plateauStatus();
+    EXPECT_EQ(sessionState(status, "").objects(0).heights().max().z(), 100);
+    fabric::GroundGrid turned = status.sceneInfo.ground->front();
+    turned.worldFromGrid[2] = {0, -2, 0, 0};
+    turned.lowest = 30;
+    status.sceneInfo.ground = std::make_shared<const std::vector<fabric::GroundGrid>>(1, turned);
+    const v1::Box heights = sessionState(status, "").objects(0).heights();
+    EXPECT_EQ(heights.min().y(), -200);
+    EXPECT_EQ(heights.max().y(), -60);
+    EXPECT_EQ(heights.max().z(), 0);
+    status.sceneInfo.ground.reset();
+    EXPECT_FALSE(sessionState(status, "").objects(0).has_heights());
+}
+
 TEST(Viewer, LiftsACameraOutOfTheGroundAndSaysSo) {
     FakeFrameSource frames;
     frames.setStatus(plateauStatus());
@@ -63,6 +78,9 @@ TEST(Viewer, LetsACameraUnderGroundThatIsMeantToBeThere) {
     ASSERT_TRUE(frame.has_value());
     EXPECT_FALSE(frame->has_lifted_camera());
     EXPECT_EQ(frames.requests().back().camera.eye.z, 3);
+    ASSERT_TRUE(frame->has_lift());
+    EXPECT_EQ(frame->lift().x(), 0);
+    EXPECT_EQ(frame->lift().z(), 99);
     browser.acknowledge(frame->frame_number());
     request.mutable_view()->set_underground(false);
     browser.send(request);
@@ -78,8 +96,13 @@ TEST(Viewer, LeavesACameraAboveGroundAsItIs) {
     request.mutable_view()->mutable_camera()->set_eye(2, 103);
     request.mutable_view()->mutable_look()->set_exaggeration(-2);
     browser.send(request);
-    EXPECT_FALSE(browser.nextFrame()->has_lifted_camera());
+    const auto frame = browser.nextFrame();
+    EXPECT_FALSE(frame->has_lifted_camera());
     EXPECT_EQ(frames.requests().back().look.exaggeration, -2);
+    browser.acknowledge(frame->frame_number());
+    request.mutable_view()->set_underground(true);
+    browser.send(request);
+    EXPECT_FALSE(browser.nextFrame()->has_lift());
 }
 
 v1::ViewerRequest viewIn(double time) {

@@ -4,14 +4,14 @@ import { describe, expect, it } from "vitest";
 import { project } from "./camera/camera";
 import { homeOf, objectBounds, wholeBounds } from "./drawn_bounds";
 import { SessionStateSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
-import { ObjectKind } from "./protocol/messages";
 
 const box = (low: number, high: number) => ({
   min: { x: 0, y: 0, z: low },
   max: { x: 20_000, y: 20_000, z: high },
 });
-const terrain = { kind: ObjectKind.TERRAIN, bounds: box(500, 4400) };
-const mesh = { kind: ObjectKind.MESH, bounds: box(400, 900) };
+const heights = (low: number, high: number) => ({ min: { z: low }, max: { z: high } });
+const terrain = { bounds: box(500, 4400), heights: heights(500, 4400) };
+const mesh = { bounds: box(400, 900) };
 const sceneOf = (...objects: object[]) =>
   create(SessionStateSchema, {
     objects,
@@ -44,6 +44,21 @@ describe("The whole scene, as it is drawn", () => {
     expect(wholeBounds(sceneOf(), 10)?.max[2]).toBe(4400);
     expect(objectBounds(scene.objects[0], 10)?.min[2]).toBe(5000);
     expect(objectBounds(scene.objects[1], 10)?.min[2]).toBe(400);
+  });
+
+  it("reaches as high as terrain does that its scene moves, scales and turns", () => {
+    const raised = sceneOf({ bounds: box(2000, 9800), heights: heights(1000, 8800) });
+    expect(objectBounds(raised.objects[0], 10)).toEqual({
+      min: [0, 0, 11_000],
+      max: [20_000, 20_000, 89_000],
+    });
+    expect(wholeBounds(raised, -1)).toEqual({
+      min: [0, 0, 1000 - 8800],
+      max: [20_000, 20_000, 0],
+    });
+    const onItsSide = { min: { x: -300 }, max: { x: -100 } };
+    const leaning = sceneOf({ bounds: box(0, 50), heights: onItsSide }).objects[0];
+    expect(objectBounds(leaning, 2)).toEqual({ min: [-300, 0, 0], max: [19_900, 20_000, 50] });
   });
 
   it("without terrain is seen from where the server shows it", () => {

@@ -5,23 +5,21 @@ import type { Camera } from "./camera/camera";
 import type { Bounds } from "./camera/standard";
 import { directionOfView, homeIn, standardCamera } from "./camera/standard";
 import type { ObjectState, SessionState } from "./protocol/messages";
-import { boundsOf, cameraOf, ObjectKind } from "./protocol/messages";
+import { boundsOf, cameraOf } from "./protocol/messages";
 
 type Scene = Pick<SessionState, "home" | "sceneBounds" | "objects">;
 
-const isTerrain = ({ kind }: ObjectState): boolean => kind === ObjectKind.TERRAIN;
-
-/** Heights of terrain are taken from 0, which is right where its scene does not move or scale it. */
+/** Each face moves as far as the heights' own does, whatever moves, turns or scales the terrain. */
 export function objectBounds(
   object: ObjectState | undefined,
   exaggeration: number,
 ): Bounds | undefined {
-  const bounds = boundsOf(object?.bounds);
-  if (object === undefined || bounds === undefined || !isTerrain(object)) return bounds;
-  const [x, y, z] = bounds.min;
-  const [right, back, top] = bounds.max;
-  const heights = [exaggeration * z, exaggeration * top];
-  return { min: [x, y, Math.min(...heights)], max: [right, back, Math.max(...heights)] };
+  const [bounds, heights] = [boundsOf(object?.bounds), boundsOf(object?.heights)];
+  if (bounds === undefined || heights === undefined) return bounds;
+  const drawn = (i: 0 | 1 | 2) => [exaggeration * heights.min[i], exaggeration * heights.max[i]];
+  const least = (i: 0 | 1 | 2) => bounds.min[i] + Math.min(...drawn(i)) - heights.min[i];
+  const most = (i: 0 | 1 | 2) => bounds.max[i] + Math.max(...drawn(i)) - heights.max[i];
+  return { min: [least(0), least(1), least(2)], max: [most(0), most(1), most(2)] };
 }
 
 /** Of all objects, hidden ones as well; what the server says where it says nothing of objects. */
@@ -39,7 +37,8 @@ export function wholeBounds(scene: Scene, exaggeration: number): Bounds | undefi
 export function homeOf(scene: Scene, exaggeration: number, aspect: number): Camera | undefined {
   const [home, bounds] = [cameraOf(scene.home), wholeBounds(scene, exaggeration)];
   if (home === undefined || bounds === undefined) return undefined;
-  const isAsServed = exaggeration === 1 || !scene.objects.some(isTerrain);
+  const isAsServed =
+    exaggeration === 1 || !scene.objects.some(({ heights }) => heights !== undefined);
   if (isAsServed) return homeIn(home, bounds, aspect);
   return standardCamera(directionOfView(home), bounds, aspect, home.fovyDegrees);
 }

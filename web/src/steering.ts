@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Camera } from "./camera/camera";
-import { isUsable } from "./camera/camera";
+import type { Camera, Vec3 } from "./camera/camera";
+import { add, isUsable } from "./camera/camera";
 import type { CameraHolder } from "./camera/controls";
 import { Controls } from "./camera/controls";
 import type { Keys } from "./camera/fly";
@@ -47,10 +47,14 @@ export class Steering implements CameraHolder {
     camera: undefined,
     sequence: 0,
   };
+  /** How far its eye is below where others may be, where it may be there. */
+  private lift: Vec3 | undefined;
   /** The camera with which a walk has ended. */
   private walked: Camera | null = null;
   /** The last camera of a flight. */
   private flown: Camera | null = null;
+  /** Hands steer on from a flight under ground, and have not come out of it. */
+  private staysUnderground = false;
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -115,12 +119,21 @@ export class Steering implements CameraHolder {
   }
 
   private walkingChanged(isWalking: boolean): void {
+    if (isWalking) this.staysUnderground = false;
     if (isWalking && this.camera !== null) this.walker.begin(this.camera);
     else {
       this.walker.end();
+      this.comeOut();
       this.walked = this.camera;
     }
     this.events.changed();
+  }
+
+  /** To where the server would lift the eye, before it does: no picture looks down from there. */
+  private comeOut(): void {
+    const isFree = this.goesUnderground || this.state.look.value.underground;
+    if (this.camera === null || this.lift === undefined || isFree) return;
+    this.camera = seenFrom(this.camera, add(this.camera.eye, this.lift));
   }
 
   private keepWalkerOnGround(): void {
@@ -134,6 +147,7 @@ export class Steering implements CameraHolder {
   }
 
   move(camera: Camera, inputTime?: number): void {
+    if (this.isFlown) this.staysUnderground = this.lift !== undefined;
     if (this.isWalking && isUsable(camera)) {
       if (this.walker.isAt(camera)) this.walker.turned(camera);
       else this.state.walking.set(false);
@@ -152,6 +166,13 @@ export class Steering implements CameraHolder {
     this.events.moved(inputTime);
   }
 
+  /** To a view that does not go on from the last one. */
+  jumpTo(camera: Camera, inputTime?: number): void {
+    this.flown = null;
+    this.staysUnderground = false;
+    this.move(camera, inputTime);
+  }
+
   /** To a camera of a flight, which may have been recorded walking: nothing lifts it. */
   moveAlong(camera: Camera): void {
     this.flown = camera;
@@ -161,7 +182,7 @@ export class Steering implements CameraHolder {
   goHome(inputTime?: number): void {
     const session = this.state.session.value;
     const home = session && homeOf(session, this.state.look.value.exaggeration, this.aspect);
-    if (home) this.move(home, inputTime);
+    if (home) this.jumpTo(home, inputTime);
   }
 
   /** From where maps and drawings show things; `index` in standardViews. */
@@ -181,7 +202,7 @@ export class Steering implements CameraHolder {
 
   private frame(bounds: Bounds, from: Direction, inputTime: number | undefined): void {
     const fovyDegrees = this.camera?.fovyDegrees ?? 45;
-    this.move(standardCamera(from, bounds, this.aspect, fovyDegrees), inputTime);
+    this.jumpTo(standardCamera(from, bounds, this.aspect, fovyDegrees), inputTime);
   }
 
   private get aspect(): number {
@@ -206,16 +227,24 @@ export class Steering implements CameraHolder {
 
   /**
    * Nothing lifts a walk out of the ground, which is nearer to it than the server would let, nor what
-   * is shown of a flight.
+   * is shown of a flight, nor who steers on from there.
    */
   get goesUnderground(): boolean {
-    const isFlown = this.camera !== null && this.camera === this.flown;
-    return this.isWalking || isFlown;
+    return this.isWalking || this.isFlown || this.staysUnderground;
   }
 
-  /** A frame says that the server has lifted the camera of its view out of the ground, or not. */
-  liftedTo(camera: Camera | undefined, sequence: number): void {
+  private get isFlown(): boolean {
+    return this.camera !== null && this.camera === this.flown;
+  }
+
+  /**
+   * A frame says that the server has lifted the camera of its view out of the ground, or not; or how
+   * far it would have, where it may not.
+   */
+  liftedTo(camera: Camera | undefined, lift: Vec3 | undefined, sequence: number): void {
     this.lifted = { camera, sequence };
+    this.lift = lift;
+    if (lift === undefined) this.staysUnderground = false;
     this.adoptLifted();
   }
 

@@ -206,7 +206,7 @@ export class Viewer {
   show(view: SharedView): void {
     applySettings(this.state, view);
     this.leaveOutAbsent();
-    this.steering.move(view.camera, performance.now());
+    this.steering.jumpTo(view.camera, performance.now());
   }
 
   /** A link may be of another scene; it can be held against this one once that is there. */
@@ -346,7 +346,9 @@ export class Viewer {
     const { frame, picture } = arrived;
     this.rate.drawn(time);
     this.sender.drawn(Number(frame.viewSequence), time);
-    this.steering.liftedTo(cameraOf(frame.liftedCamera), Number(frame.viewSequence));
+    const { liftedCamera, lift, viewSequence } = frame;
+    const up = lift && ([lift.x, lift.y, lift.z] as const);
+    this.steering.liftedTo(cameraOf(liftedCamera), up, Number(viewSequence));
     this.noteShown(frame);
     const seen = {
       exact: isExact,

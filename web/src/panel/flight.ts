@@ -36,6 +36,12 @@ async function readFile(file: File, state: State, viewer: Viewer) {
   return pathOf(text, name, bounds, viewer.camera?.fovyDegrees ?? 45);
 }
 
+/** Loading would take the place of what is recorded. */
+function mayLoad(deck: FlightDeck, load: HTMLButtonElement, title: string): void {
+  load.disabled = deck.activity.value.kind === "recording";
+  load.title = load.disabled ? "End the recording first (B)" : title;
+}
+
 function scrubber(deck: FlightDeck): HTMLElement {
   const label = make("label", "label", "Time");
   const output = make("output", "value");
@@ -69,6 +75,10 @@ function keptFlights(deck: FlightDeck, state: State): HTMLElement {
   name.id = "flight-name";
   name.maxLength = 80;
   name.placeholder = name.ariaLabel = "Name of the flight";
+  const update = (): void => {
+    for (const load of list.querySelectorAll<HTMLButtonElement>(".bookmark > :first-child"))
+      mayLoad(deck, load, `Load ${load.textContent}`);
+  };
   const fill = (): void => {
     const rows = readFlights(browserStorage()).map((flight) => {
       const load = button(flight.name, `Load ${flight.name}`, () => deck.load(flight));
@@ -82,6 +92,7 @@ function keptFlights(deck: FlightDeck, state: State): HTMLElement {
     });
     list.replaceChildren(...rows);
     list.hidden = rows.length === 0;
+    update();
   };
   const keep = make("button", "small", "Keep");
   keep.type = "submit";
@@ -107,6 +118,7 @@ function keptFlights(deck: FlightDeck, state: State): HTMLElement {
     if (name.value.trim() !== flight.name) name.value = flight.name;
   });
   fill();
+  deck.activity.watch(update);
   return make("div", "field", form, list);
 }
 
@@ -166,13 +178,14 @@ function files(deck: FlightDeck, state: State, viewer: Viewer): HTMLElement {
     const json = new Blob([flightJson(flight)], { type: "application/json" });
     download(json, `${fileName(flight.name)}.json`);
   };
+  const title = "JSON, or a camera path of eqPly or of eyes and normals";
+  const loadFile = button("Load flight", title, () => input.click());
+  deck.activity.watch(() => mayLoad(deck, loadFile, title));
   return make(
     "div",
     "small-buttons field",
     button("Save flight", "As JSON, which eyrie bench --flight plays", save),
-    button("Load flight", "JSON, or a camera path of eqPly or of eyes and normals", () =>
-      input.click(),
-    ),
+    loadFile,
     input,
   );
 }

@@ -13,10 +13,12 @@ export function setUpToolbar(state: State, viewer: Viewer): void {
   const fly = byId("fly", HTMLButtonElement);
   const toggle = byId("panel-toggle", HTMLButtonElement);
   const panel = byId("panel", HTMLElement);
+  const stage = byId("stage", HTMLElement);
   const mode = byId("mode", HTMLElement);
   const toggleHelp = setUpHelp(state);
   const showPanel = (isShown: boolean): void => {
     panel.hidden = !isShown;
+    stage.classList.toggle("is-covered", isShown);
     toggle.setAttribute("aria-expanded", String(isShown));
   };
 

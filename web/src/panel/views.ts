@@ -63,12 +63,20 @@ function bookmarkList(state: State, viewer: Viewer): HTMLElement {
   return make("div", "field", form, list);
 }
 
-/** The exact picture; the view comes to rest first where it moves. */
-async function exactPicture(viewer: Viewer): Promise<Blob | undefined> {
+/** The exact picture, or why there is none; the view comes to rest first where it moves. */
+export async function exactPicture(
+  { connection }: Pick<State, "connection">,
+  viewer: Pick<Viewer, "exactNow">,
+): Promise<Blob | string> {
   const deadline = performance.now() + exactWithin;
-  while (viewer.exactNow() === undefined && performance.now() < deadline)
+  const isConnected = (): boolean => connection.value.kind === "connected";
+  while (viewer.exactNow() === undefined && isConnected() && performance.now() < deadline)
     await new Promise((resolve) => setTimeout(resolve, 50));
-  return viewer.exactNow();
+  const picture = viewer.exactNow();
+  if (picture !== undefined) return picture;
+  return isConnected()
+    ? "There is no exact picture to save yet"
+    : "There is no exact picture to save without a connection to the server";
 }
 
 /** The commands, for buttons and keys alike. */
@@ -98,8 +106,8 @@ function commands(state: State, viewer: Viewer) {
     curl: withView((view) => copy("curl command", curlCommand(requestOf(view), page()))),
     python: withView((view) => copy("Python script", pythonScript(requestOf(view), page()))),
     save: () =>
-      void exactPicture(viewer).then((picture) => {
-        if (picture === undefined) state.notice.set("There is no exact picture to save yet");
+      void exactPicture(state, viewer).then((picture) => {
+        if (typeof picture === "string") state.notice.set(picture);
         else download(picture, "eyrie.png");
       }),
   };

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it, vi } from "vitest";
+import type { Camera } from "./camera/camera";
+import { State } from "./state";
+import { Steering } from "./steering";
+
+vi.mock("./camera/controls", () => ({ Controls: class {} }));
+
+const at = (x: number, z: number): Camera => ({
+  eye: [x, 0, z],
+  target: [x, 20, z],
+  up: [0, 0, 1],
+  fovyDegrees: 45,
+});
+
+describe("Steering", () => {
+  const make = (): { steering: Steering; state: State } => {
+    const state = new State();
+    const steering = new Steering({} as HTMLCanvasElement, state, {
+      moved: () => {},
+      changed: () => {},
+      clicked: () => {},
+      ask: (from, to, samples, answered) => {
+        answered({ from, to, heights: Array<number>(samples).fill(0) });
+        return true;
+      },
+      isNewest: () => true,
+      canvasSize: () => ({ width: 640, height: 360 }),
+    });
+    steering.move(at(0, 50));
+    return { steering, state };
+  };
+
+  it("goes on under ground from a flight that was there, until it comes out", () => {
+    const { steering } = make();
+    steering.moveAlong(at(1, 1.7));
+    steering.liftedTo(undefined, [0, 0, 0.3], 1);
+    steering.move(at(2, 1.7));
+    expect(steering.goesUnderground).toBe(true);
+    steering.liftedTo(undefined, [0, 0, 0.3], 2);
+    steering.move(at(3, 1.8));
+    expect(steering.goesUnderground).toBe(true);
+    steering.liftedTo(undefined, undefined, 3);
+    steering.move(at(3, 9));
+    expect(steering.goesUnderground).toBe(false);
+  });
+
+  it("comes out of the ground where a walk ends, before a picture shows it lifted", () => {
+    for (const underground of [false, true]) {
+      const { steering, state } = make();
+      state.look.set({ ...state.look.value, underground });
+      steering.setWalking(true);
+      expect(steering.camera?.eye[2]).toBeCloseTo(1.7);
+      steering.liftedTo(undefined, [0, 0, 0.3], 1);
+      steering.setWalking(false);
+      const z = underground ? 1.7 : 2;
+      expect(steering.camera?.eye[2]).toBeCloseTo(z);
+      expect(steering.camera?.target[2]).toBeCloseTo(z);
+    }
+  });
+
+  it("is kept above ground after a flight that was there, and in another view", () => {
+    const { steering } = make();
+    steering.moveAlong(at(1, 90));
+    steering.liftedTo(undefined, undefined, 1);
+    steering.move(at(2, 90));
+    expect(steering.goesUnderground).toBe(false);
+    steering.moveAlong(at(1, 1.7));
+    steering.liftedTo(undefined, [0, 0, 0.3], 2);
+    steering.jumpTo(at(5, 1));
+    expect(steering.goesUnderground).toBe(false);
+  });
+});
