@@ -136,7 +136,7 @@ grpc::ServerUnaryReactor* RenderService::SetFrameData(grpc::CallbackServerContex
 
 grpc::ServerWriteReactor<v1::RenderChannelResponse>* RenderService::RenderChannel(
     grpc::CallbackServerContext* context, const v1::RenderChannelRequest* request) {
-    auto* reply = new ChannelReplyStream(*context, slots_);
+    auto* reply = new ChannelReplyStream(*context, slots_, patience_);
     absl::Status status = wire::admit(security_, *context);
     if (status.ok())
         status = startDrawing(*request, *reply);
@@ -147,7 +147,7 @@ grpc::ServerWriteReactor<v1::RenderChannelResponse>* RenderService::RenderChanne
 
 grpc::ServerWriteReactor<v1::RunProgramResponse>* RenderService::RunProgram(
     grpc::CallbackServerContext* context, const v1::RunProgramRequest* request) {
-    auto* reply = new ProgramReplyStream(*context, slots_);
+    auto* reply = new ProgramReplyStream(*context, slots_, patience_);
     absl::Status status = wire::admit(security_, *context);
     if (status.ok())
         status = startProgram(*request, deadlineOf(*context), *reply);
