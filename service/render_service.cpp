@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "fabric/status.h"
+#include "service/drawn_channel.h"
 #include "service/frame_receiver.h"
 #include "service/picture_reply.h"
 #include "wire/channel_program.h"
@@ -69,7 +70,7 @@ void draw(ChannelDrawer& drawer, const Asked& asked, PictureMemories& memories,
             return room;
         };
     absl::StatusOr<fabric::ChannelResult> result =
-        drawer.render(asked.frameData, asked.task, delivery);
+        drawnChannel(drawer, asked.frameData, asked.task, delivery);
     if (!result.ok())
         return reply.fail(result.status());
     const ChannelStory story{asked.received, begun, ChannelStory::Clock::now(), drawer.memory()};

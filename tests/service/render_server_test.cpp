@@ -349,6 +349,17 @@ TEST_F(RenderServerTest, ASceneThatTakesAllMemoryIsRefusedAndTheNextOneOpens) {
     EXPECT_TRUE(renderer_->openScene({}, soon()).ok());
 }
 
+TEST_F(RenderServerTest, AChannelThatTakesAllMemoryIsRefusedAndTheNextOneDrawn) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    control_->hasNoMemory = true;
+    const absl::Status refused = renderer_->render(task(8, 4, true), soon()).status();
+    EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_THAT(std::string(refused.message()),
+                testing::HasSubstr("8x4 pixels and their depths within 2 pixels"));
+    control_->hasNoMemory = false;
+    EXPECT_TRUE(renderer_->render(task(8, 4, true), soon()).ok());
+}
+
 TEST_F(RenderServerTest, AnOpenSceneReportsItsExtent) {
     const auto info = renderer_->openScene({}, soon());
     ASSERT_TRUE(info.ok()) << info.status();
