@@ -33,7 +33,7 @@ void addDrawingOptions(CLI::App& command, DrawingOptions& options) {
         ->capture_default_str();
     command
         .add_option("--host-memory", options.hostMemory,
-                    "Limit of a renderer's indices of terrains, 28 bytes a tile, and of pages kept "
+                    "Limit of a renderer's indices of terrains, 31 bytes a tile, and of pages kept "
                     "in memory, those being read included; of tables of meshes, when they are "
                     "opened")
         ->type_name("BYTES[K|M|G|T]")

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "effects/object_block.h"
+#include "fabric/scene_reach.h"
 #include "fabric/status.h"
 #include "renderer/draw/batches.h"
 #include "renderer/draw/budget_choice.h"
@@ -59,20 +60,6 @@ double millisecondsSince(Clock::time_point start) {
 const gl::PassState& passState(fabric::Shading shading) {
     return shading == fabric::Shading::Wireframe ? effects::ObjectBlock::kWireframe
                                                  : effects::ObjectBlock::kSolid;
-}
-
-/// Cameras reach ten times as far, so that there is one that sees all of a scene.
-constexpr double kMaxSceneMetres = fabric::kMaxCoordinateMetres / 10;
-
-absl::Status checkReach(const fabric::SceneObject& object, const fabric::Box& bounds) {
-    for (const fabric::Vec3& corner : {bounds.min, bounds.max})
-        for (int axis = 0; axis < 3; ++axis)
-            if (!bounds.isEmpty() && !(std::abs(corner[axis]) <= kMaxSceneMetres))
-                return absl::InvalidArgumentError(fmt::format(
-                    "object '{}' reaches to {:.3g} metres; scenes reach from {:g} to {:g}: check "
-                    "its transform",
-                    object.name, corner[axis], -kMaxSceneMetres, kMaxSceneMetres));
-    return absl::OkStatus();
 }
 
 /// What is always in memory of an open file: its index, or its tables.
@@ -274,7 +261,7 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
         ASSIGN_OR_RETURN(auto drawable, openObject(object, files[i], shares[i]));
         info.objects.push_back({fabric::transformed(drawable->bounds(), object.worldFromObject),
                                 drawable->triangles()});
-        RETURN_IF_ERROR(checkReach(object, info.objects.back().bounds));
+        RETURN_IF_ERROR(fabric::checkReach(object, info.objects.back().bounds));
         info.bounds.grow(info.objects.back().bounds);
         info.triangles += info.objects.back().triangles;
         info.files.push_back(drawable->file());

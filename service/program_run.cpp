@@ -11,6 +11,7 @@
 
 #include "fabric/channel_buffer.h"
 #include "fabric/status.h"
+#include "service/drawn_channel.h"
 
 namespace eyrie::service {
 namespace {
@@ -27,7 +28,8 @@ absl::StatusOr<Drawn> drawWith(ChannelDrawer& drawer, const fabric::FrameData& f
                                const fabric::ChannelTask& task, const std::stop_token& stop) {
     if (stop.stop_requested())
         return absl::CancelledError("nobody waits for this channel any more");
-    ASSIGN_OR_RETURN(fabric::ChannelResult result, drawer.render(frameData, task, {.stop = stop}));
+    ASSIGN_OR_RETURN(fabric::ChannelResult result,
+                     drawnChannel(drawer, frameData, task, {.stop = stop}));
     return Drawn{std::move(result), drawer.memory()};
 }
 

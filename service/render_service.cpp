@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "fabric/status.h"
+#include "service/drawn_channel.h"
 #include "service/frame_receiver.h"
 #include "service/picture_reply.h"
 #include "wire/channel_program.h"
@@ -69,7 +70,7 @@ void draw(ChannelDrawer& drawer, const Asked& asked, PictureMemories& memories,
             return room;
         };
     absl::StatusOr<fabric::ChannelResult> result =
-        drawer.render(asked.frameData, asked.task, delivery);
+        drawnChannel(drawer, asked.frameData, asked.task, delivery);
     if (!result.ok())
         return reply.fail(result.status());
     const ChannelStory story{asked.received, begun, ChannelStory::Clock::now(), drawer.memory()};
@@ -136,7 +137,7 @@ grpc::ServerUnaryReactor* RenderService::SetFrameData(grpc::CallbackServerContex
 
 grpc::ServerWriteReactor<v1::RenderChannelResponse>* RenderService::RenderChannel(
     grpc::CallbackServerContext* context, const v1::RenderChannelRequest* request) {
-    auto* reply = new ChannelReplyStream(*context, slots_);
+    auto* reply = new ChannelReplyStream(*context, slots_, patience_);
     absl::Status status = wire::admit(security_, *context);
     if (status.ok())
         status = startDrawing(*request, *reply);
@@ -147,7 +148,7 @@ grpc::ServerWriteReactor<v1::RenderChannelResponse>* RenderService::RenderChanne
 
 grpc::ServerWriteReactor<v1::RunProgramResponse>* RenderService::RunProgram(
     grpc::CallbackServerContext* context, const v1::RunProgramRequest* request) {
-    auto* reply = new ProgramReplyStream(*context, slots_);
+    auto* reply = new ProgramReplyStream(*context, slots_, patience_);
     absl::Status status = wire::admit(security_, *context);
     if (status.ok())
         status = startProgram(*request, deadlineOf(*context), *reply);

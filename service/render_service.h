@@ -15,9 +15,13 @@ namespace eyrie::service {
 /// and to run programs, for threads of their own.
 class RenderService final : public v1::RenderService::CallbackService {
 public:
-    /// `thread` outlives the service.
-    explicit RenderService(GlThread& thread, const wire::Security& security = {})
-        : thread_(thread), security_(security), exchange_(thread, frameData_, security) {}
+    /// `thread` outlives the service. `patience`: wire::AnswerLimit's.
+    explicit RenderService(GlThread& thread, const wire::Security& security = {},
+                           std::chrono::milliseconds patience = wire::AnswerLimit::kPatience)
+        : thread_(thread),
+          security_(security),
+          patience_(patience),
+          exchange_(thread, frameData_, security) {}
 
     grpc::ServerUnaryReactor* OpenScene(grpc::CallbackServerContext* context,
                                         const v1::OpenSceneRequest* request,
@@ -45,6 +49,7 @@ private:
 
     GlThread& thread_;
     const wire::Security security_;
+    const std::chrono::milliseconds patience_;
     PickThread picks_;
     PictureMemories memories_;  ///< the GL thread's
     fabric::Rgba background_;   ///< of the scene that is open; the GL thread's

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <stop_token>
@@ -12,6 +13,7 @@
 #include <grpcpp/support/server_callback.h>
 
 #include "service/reply_slots.h"
+#include "wire/answer_limit.h"
 #include "wire/status.h"
 
 namespace eyrie::service {
@@ -29,16 +31,17 @@ public:
 };
 
 /// The answer to one call as a stream of messages. One message is made at a time, so a slow reader
-/// costs what the source holds and one message, no more.
+/// costs what the source holds and one message, no more, and one that takes none is cancelled.
 ///
 /// Owns itself, as gRPC's reactors do: exactly one of send and fail must be called, once, from any
 /// thread; the object then goes when gRPC has done with it.
 template <typename Message>
 class ReplyStream final : public grpc::ServerWriteReactor<Message> {
 public:
-    /// Takes one of `slots`, which outlive it.
-    ReplyStream(grpc::CallbackServerContext& context, ReplySlots& slots)
-        : context_(context), slots_(slots) {
+    /// Takes one of `slots`, which outlive it. `patience`: wire::AnswerLimit's.
+    ReplyStream(grpc::CallbackServerContext& context, ReplySlots& slots,
+                std::chrono::milliseconds patience)
+        : context_(context), slots_(slots), limit_(context, patience) {
         slots_.open();
     }
 
@@ -60,6 +63,7 @@ public:
     void fail(const absl::Status& status) { finish(wire::toGrpc(status)); }
 
     void OnWriteDone(bool ok) override {
+        limit_.taken();
         if (source_ == nullptr)
             return;  // Finish was called with the last one.
         if (!ok || isCancelled())
@@ -76,10 +80,12 @@ public:
 private:
     void writeNext() {
         source_->next(message_);
+        const std::size_t bytes = message_.ByteSizeLong();
+        limit_.sends(bytes);
         if (!source_->isDone())
             return this->StartWrite(&message_);
         source_ = nullptr;
-        lastBytes_ = message_.ByteSizeLong();
+        lastBytes_ = bytes;
         slots_.leave(lastBytes_);  // first: a reader may ask for more as soon as it has this
         this->StartWriteAndFinish(&message_, {}, grpc::Status::OK);
     }
@@ -91,6 +97,7 @@ private:
 
     grpc::CallbackServerContext& context_;
     ReplySlots& slots_;
+    wire::AnswerLimit limit_;
     std::stop_source cancelled_;
     std::unique_ptr<MessageSource<Message>> source_;  ///< of the messages after this one
     Message message_;

@@ -25,14 +25,14 @@ public:
         addStatusHandlers(handlers, parts.frames);
         addSessionHandlers(handlers, parts.frames, *sessions);
         addStatisticsHandlers(handlers, sessions->statistics(), quotas);
-        addTraceHandlers(handlers, telemetry);
+        addTraceHandlers(handlers, telemetry, quotas);
         addImageHandlers(handlers, parts.frames, sessions->statistics(), quotas);
         addPlaceHandlers(handlers, parts.frames);
         addConfigurationHandlers(handlers, parts.configuration);
         addSceneHandlers(handlers, scenes);
         addFlightHandlers(handlers, folder);
         addDataHandlers(handlers, data);
-        addBenchHandlers(handlers, data, scenes, folder);
+        addBenchHandlers(handlers, data, scenes, folder, quotas);
         addOperationHandlers(handlers, data.operations());
     }
 

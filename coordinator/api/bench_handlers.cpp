@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <utility>
+
 #include "coordinator/api/bench_order.h"
 #include "coordinator/api/bench_reports.h"
 #include "coordinator/api/data_desk.h"
@@ -11,7 +14,7 @@
 namespace eyrie::api {
 
 void addBenchHandlers(Handlers& handlers, DataDesk& data, SceneDesk& scenes,
-                      const DataFolder& folder) {
+                      const DataFolder& folder, const QuotaKeeper& quotas) {
     handlers.add<v1::BenchRequest, v1::BenchResponse>(
         "Bench",
         [&data, &scenes, &folder](const v1::BenchRequest& request,
@@ -29,14 +32,18 @@ void addBenchHandlers(Handlers& handlers, DataDesk& data, SceneDesk& scenes,
         });
     handlers.add<v1::GetReportRequest, v1::GetReportResponse>(
         "GetReport",
-        [&folder](const v1::GetReportRequest& request,
-                  const Call&) -> absl::StatusOr<v1::GetReportResponse> {
+        [&folder, &quotas](const v1::GetReportRequest& request,
+                           const Call& call) -> absl::StatusOr<v1::GetReportResponse> {
             if (!folder)
                 return absl::FailedPreconditionError(
                     "the server has no data folder, and so no reports; start it with --data DIR");
             v1::GetReportResponse response;
-            ASSIGN_OR_RETURN(*response.mutable_content(),
-                             readReport(*folder, request.name(), request.file()));
+            ASSIGN_OR_RETURN(const FoundReport found,
+                             findReport(*folder, request.name(), request.file()));
+            ASSIGN_OR_RETURN(std::shared_ptr<void> share,
+                             quotas.documentShare(call.taking(found.bytes)));
+            call.keep(std::move(share));
+            ASSIGN_OR_RETURN(*response.mutable_content(), read(found));
             response.set_file(request.file() == v1::REPORT_FILE_UNSPECIFIED
                                   ? v1::REPORT_FILE_SUMMARY
                                   : request.file());

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -27,7 +26,7 @@ std::string_view fileNameOf(v1::ReportFile file) {
                                             : "summary.json";
 }
 
-absl::StatusOr<std::string> readReport(const access::DataFolder& folder, const std::string& name,
+absl::StatusOr<FoundReport> findReport(const access::DataFolder& folder, const std::string& name,
                                        v1::ReportFile file) {
     if (!v1::ReportFile_IsValid(file))
         return absl::InvalidArgumentError(fmt::format(
@@ -44,10 +43,18 @@ absl::StatusOr<std::string> readReport(const access::DataFolder& folder, const s
     if (!fs::is_regular_file(*path, error))
         return absl::NotFoundError(fmt::format("there is no report '{}' with a file {}",
                                                name.substr(0, 64), fileNameOf(file)));
-    if (fs::file_size(*path, error) > kMaxBytes)
+    const std::uintmax_t bytes = fs::file_size(*path, error);
+    if (error)
+        return absl::UnavailableError("the file cannot be read");
+    if (bytes > kMaxBytes)
         return absl::ResourceExhaustedError("the file is larger than 256 MiB; copy it instead");
-    std::ifstream stream(*path, std::ios::binary);
-    std::string content(std::istreambuf_iterator<char>(stream), {});
+    return FoundReport{*path, static_cast<std::int64_t>(bytes)};
+}
+
+absl::StatusOr<std::string> read(const FoundReport& found) {
+    std::ifstream stream(found.path, std::ios::binary);
+    std::string content(static_cast<std::size_t>(found.bytes), '\0');
+    stream.read(content.data(), found.bytes);
     if (!stream)
         return absl::UnavailableError("the file cannot be read");
     return content;

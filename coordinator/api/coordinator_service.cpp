@@ -16,13 +16,23 @@ namespace {
 /// One call; ends itself.
 class Reactor final : public grpc::ServerUnaryReactor {
 public:
+    Reactor(grpc::CallbackServerContext& context, std::chrono::milliseconds patience)
+        : limit_(context, patience) {}
+
     /// What its handler is given beside the request.
     Call call() { return {stop_.get_token(), false, &room_}; }
+
+    /// `answer` is empty where `status` is an error.
+    void finish(const absl::Status& status, const google::protobuf::Message& answer) {
+        limit_.sends(answer.ByteSizeLong());
+        Finish(wire::toGrpc(status));
+    }
 
 private:
     void OnCancel() override { stop_.request_stop(); }
     void OnDone() override { delete this; }
 
+    wire::AnswerLimit limit_;
     std::stop_source stop_;
     std::shared_ptr<void> room_;  ///< until the answer has been sent
 };
@@ -42,7 +52,7 @@ absl::Status CoordinatorService::admit(const char* name,
 
 grpc::ServerWriteReactor<v1::WatchStatisticsResponse>* CoordinatorService::WatchStatistics(
     grpc::CallbackServerContext* context, const v1::WatchStatisticsRequest* request) {
-    auto* const reactor = new StreamReactor<v1::WatchStatisticsResponse>;
+    auto* const reactor = new StreamReactor<v1::WatchStatisticsResponse>(*context, patience_);
     if (const absl::Status status = admit("WatchStatistics", *context); !status.ok()) {
         reactor->begin(status);
     } else {
@@ -56,25 +66,25 @@ grpc::ServerWriteReactor<v1::WatchStatisticsResponse>* CoordinatorService::Watch
 }
 
 grpc::ServerUnaryReactor* CoordinatorService::call(const char* name,
-                                                   const grpc::CallbackServerContext& context,
+                                                   grpc::CallbackServerContext& context,
                                                    const google::protobuf::Message& request,
                                                    google::protobuf::Message& answer) {
-    auto* const reactor = new Reactor;
+    auto* const reactor = new Reactor(context, patience_);
     if (const absl::Status status = admit(name, context); !status.ok()) {
-        reactor->Finish(wire::toGrpc(status));
+        reactor->finish(status, answer);
         return reactor;
     }
     const bool isTaken = workers_.post([=, handlers = handlers_.load(), &request, &answer] {
         const absl::Status status = handlers->handle(name, request, answer, reactor->call());
         handlers->note(name, status);
-        reactor->Finish(wire::toGrpc(status));
+        reactor->finish(status, answer);
     });
     if (isTaken)
         return reactor;
     const absl::Status busy =
         absl::ResourceExhaustedError("too many calls wait; try again in a bit");
     handlers_.load()->note(name, busy);
-    reactor->Finish(wire::toGrpc(busy));
+    reactor->finish(busy, answer);
     return reactor;
 }
 

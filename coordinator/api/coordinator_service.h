@@ -2,9 +2,11 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 
 #include "coordinator/api/workers.h"
 #include "eyrie/v1/coordinator_service.grpc.pb.h"
+#include "wire/answer_limit.h"
 #include "wire/security.h"
 
 namespace eyrie::api {
@@ -12,10 +14,13 @@ namespace eyrie::api {
 class Handlers;
 
 /// CoordinatorService over gRPC. Calls are done by threads of its own; one that is cancelled, or
-/// whose deadline passes, tells its handler.
+/// whose deadline passes, tells its handler. Who does not take its answer is cancelled.
 class CoordinatorService final : public v1::CoordinatorService::CallbackService {
 public:
-    explicit CoordinatorService(const wire::Security& security = {}) : security_(security) {}
+    /// `patience`: wire::AnswerLimit's.
+    explicit CoordinatorService(const wire::Security& security = {},
+                                std::chrono::milliseconds patience = wire::AnswerLimit::kPatience)
+        : security_(security), patience_(patience) {}
 
     /// From now on calls are answered; Unavailable before. `handlers` outlive stop(). Any thread.
     void use(const Handlers& handlers) { handlers_ = &handlers; }
@@ -63,7 +68,7 @@ public:
         grpc::CallbackServerContext* context, const v1::WatchStatisticsRequest* request) override;
 
 private:
-    grpc::ServerUnaryReactor* call(const char* name, const grpc::CallbackServerContext& context,
+    grpc::ServerUnaryReactor* call(const char* name, grpc::CallbackServerContext& context,
                                    const google::protobuf::Message& request,
                                    google::protobuf::Message& answer);
 
@@ -72,6 +77,7 @@ private:
     absl::Status admit(const char* name, const grpc::CallbackServerContext& context) const;
 
     const wire::Security security_;
+    const std::chrono::milliseconds patience_;
 
     std::atomic<const Handlers*> handlers_ = nullptr;
     std::atomic<bool> isDraining_ = false;

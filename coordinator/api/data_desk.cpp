@@ -43,15 +43,14 @@ absl::StatusOr<std::vector<v1::DataSet>> DataDesk::dataSets(const std::stop_toke
     return sets_->list(stop);
 }
 
-absl::StatusOr<std::uint64_t> DataDesk::trianglesOf(const std::string& name,
-                                                    const std::stop_token& stop) {
+absl::StatusOr<v1::DataSet> DataDesk::look(const std::string& name, const std::stop_token& stop) {
     if (!sets_ || !programs_.run)
-        return 0;
-    ASSIGN_OR_RETURN(const v1::DataSet set, sets_->look(name, stop));
+        return v1::DataSet();
+    ASSIGN_OR_RETURN(v1::DataSet set, sets_->look(name, stop));
     if (!set.problem().empty())
         return absl::FailedPreconditionError(
             fmt::format("'{}' cannot be opened: {}", name, set.problem()));
-    return static_cast<std::uint64_t>(std::max<std::int64_t>(0, set.triangles()));
+    return set;
 }
 
 absl::Status DataDesk::checkOperations() const {

@@ -38,9 +38,9 @@ public:
     /// the server does no imports.
     absl::StatusOr<v1::Operation> import(const v1::ImportRequest& request);
 
-    /// At full resolution, of the file of that name; 0 where the server runs no programs.
+    /// What is known of the file of that name; nothing where the server runs no programs.
     /// Errors: those of DataSets; FailedPrecondition (the file cannot be read).
-    absl::StatusOr<std::uint64_t> trianglesOf(const std::string& name, const std::stop_token& stop);
+    absl::StatusOr<v1::DataSet> look(const std::string& name, const std::stop_token& stop);
 
     /// What a bench run of programs that may take so much memory is.
     using MakeBenchOrder = std::function<absl::StatusOr<BenchOrder>(std::uint64_t memoryBytes)>;

@@ -34,12 +34,13 @@ void addSessionHandlers(Handlers& handlers, coordinator::FrameSource& frames,
                         stream::SessionBook& sessions);
 void addStatisticsHandlers(Handlers& handlers, stream::StatisticsFeed& statistics,
                            const QuotaKeeper& quotas);
-void addTraceHandlers(Handlers& handlers, observe::SharedTelemetry telemetry);
+void addTraceHandlers(Handlers& handlers, observe::SharedTelemetry telemetry,
+                      const QuotaKeeper& quotas);
 void addSceneHandlers(Handlers& handlers, SceneDesk& scenes);
 void addFlightHandlers(Handlers& handlers, const DataFolder& folder);
 void addDataHandlers(Handlers& handlers, DataDesk& data);
 void addBenchHandlers(Handlers& handlers, DataDesk& data, SceneDesk& scenes,
-                      const DataFolder& folder);
+                      const DataFolder& folder, const QuotaKeeper& quotas);
 void addOperationHandlers(Handlers& handlers, Operations& operations);
 
 }  // namespace eyrie::api

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -25,6 +26,13 @@ struct Call {
     /// Where a handler leaves what its answer takes up of what there is for all, to be given back
     /// when the answer has been sent. Null: it ends with the call.
     std::shared_ptr<void>* room = nullptr;
+
+    void keep(std::shared_ptr<void> share) const {
+        if (room != nullptr)
+            *room = std::move(share);
+    }
+    /// What an answer of that size takes up.
+    std::int64_t taking(std::int64_t size) const { return asText ? 4 * size : size; }
 };
 
 /// What the calls of CoordinatorService do, by their names; the doors, gRPC and REST, have nothing

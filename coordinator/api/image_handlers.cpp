@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "coordinator/api/answer_shares.h"
 #include "coordinator/api/asked_view.h"
 #include "coordinator/api/handler_list.h"
 #include "coordinator/api/handlers.h"
@@ -28,8 +28,6 @@ namespace {
 
 constexpr int kMaxSide = 8192;
 constexpr int kUsualQuality = 90;
-/// How many pixels take as much memory as one whose colours and depths become text.
-constexpr int kTextShare = 4;
 
 /// Of an answer, in pixels.
 struct AnswerSize {
@@ -185,39 +183,19 @@ class Painter {
 public:
     Painter(coordinator::FrameSource& frames, stream::StatisticsFeed& statistics,
             const QuotaKeeper& quotas)
-        : frames_(frames), statistics_(statistics), quotas_(quotas) {}
+        : frames_(frames),
+          statistics_(statistics),
+          quotas_(quotas),
+          pixels_(std::min(2 * quotas.most().imagePixels, Quotas::kMostImagePixels)) {}
 
     absl::StatusOr<v1::RenderImageResponse> render(const v1::RenderImageRequest& request,
                                                    const Call& call);
 
 private:
-    using PixelCount = std::atomic<std::int64_t>;
-
-    /// A picture's share of the pixels that are being made or sent, each of which takes up to some
-    /// 25 bytes. One that is alone gets it in any case. May outlive the painter.
-    class PixelShare {
-    public:
-        PixelShare(std::shared_ptr<PixelCount> used, std::int64_t pixels, std::int64_t most)
-            : used_(std::move(used)), pixels_(pixels) {
-            const std::int64_t before = used_->fetch_add(pixels);
-            isGranted_ = before == 0 || before + pixels <= most;
-        }
-        ~PixelShare() { *used_ -= pixels_; }
-        PixelShare(const PixelShare&) = delete;
-        PixelShare& operator=(const PixelShare&) = delete;
-
-        bool isGranted() const { return isGranted_; }
-
-    private:
-        const std::shared_ptr<PixelCount> used_;
-        const std::int64_t pixels_;
-        bool isGranted_ = false;
-    };
-
     coordinator::FrameSource& frames_;
     stream::StatisticsFeed& statistics_;
     const QuotaKeeper& quotas_;
-    const std::shared_ptr<PixelCount> pixelsInUse_ = std::make_shared<PixelCount>(0);
+    const AnswerShares pixels_;  ///< each takes up to some 25 bytes
 };
 
 absl::StatusOr<v1::RenderImageResponse> Painter::render(const v1::RenderImageRequest& request,
@@ -225,16 +203,13 @@ absl::StatusOr<v1::RenderImageResponse> Painter::render(const v1::RenderImageReq
     ASSIGN_OR_RETURN(coordinator::FrameRequest asked,
                      requestOf(request, frames_, quotas_, call.asText));
     asked.stop = call.stop;
-    const auto share = std::make_shared<PixelShare>(
-        pixelsInUse_, answerSize(asked).area() * (call.asText ? kTextShare : 1),
-        std::min(2 * quotas_.most().imagePixels, Quotas::kMostImagePixels));
-    if (!share->isGranted())
+    const std::shared_ptr<void> share = pixels_.take(call.taking(answerSize(asked).area()));
+    if (share == nullptr)
         return quotas_.counted(
             observe::Quota::Image,
             absl::ResourceExhaustedError(
                 "too many large pictures are being drawn or sent; try again in a bit"));
-    if (call.room != nullptr)
-        *call.room = share;
+    call.keep(share);
     ASSIGN_OR_RETURN(const coordinator::RenderedFrame frame, frames_.renderFrame(asked));
     if (call.stop.stop_requested())
         return absl::CancelledError("the caller has gone");

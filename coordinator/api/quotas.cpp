@@ -50,4 +50,12 @@ absl::Status QuotaKeeper::counted(observe::Quota quota, absl::Status status) con
     return status;
 }
 
+absl::StatusOr<std::shared_ptr<void>> QuotaKeeper::documentShare(std::int64_t bytes) const {
+    if (std::shared_ptr<void> share = documents_.take(bytes))
+        return share;
+    return counted(observe::Quota::Documents,
+                   absl::ResourceExhaustedError(
+                       "too many large reports or traces are being sent; try again in a bit"));
+}
+
 }  // namespace eyrie::api

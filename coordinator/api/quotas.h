@@ -5,14 +5,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include <absl/status/status.h>
+#include <absl/status/statusor.h>
 
 #include "access/rare_warnings.h"
+#include "coordinator/api/answer_shares.h"
 #include "coordinator/observe/telemetry.h"
 
 namespace eyrie::api {
@@ -37,6 +39,8 @@ struct Quotas {
     std::uint64_t sceneTriangles = 100'000'000'000;
     int callsPerSecond = 200;  ///< of an address; 0: any number
     std::size_t readers = 64;  ///< of statistics, at a time
+    /// Of reports' files and traces that are being read and sent: two of the largest.
+    std::int64_t documentBytes = std::int64_t{512} << 20;
 };
 
 /// How fast an address may make calls: so many a second, and as many at once after a second of
@@ -63,7 +67,10 @@ class QuotaKeeper {
 public:
     /// `telemetry`, if any, counts what is refused.
     explicit QuotaKeeper(const Quotas& quotas, observe::SharedTelemetry telemetry = nullptr)
-        : quotas_(quotas), telemetry_(std::move(telemetry)), rate_(quotas.callsPerSecond) {}
+        : quotas_(quotas),
+          telemetry_(std::move(telemetry)),
+          rate_(quotas.callsPerSecond),
+          documents_(quotas.documentBytes) {}
 
     const Quotas& most() const { return quotas_; }
 
@@ -75,10 +82,15 @@ public:
         return counted(observe::Quota::Rate, rate_.take(address));
     }
 
+    /// For a report's file or a trace of that size, until it has been sent. ResourceExhausted: too
+    /// many are on their way.
+    absl::StatusOr<std::shared_ptr<void>> documentShare(std::int64_t bytes) const;
+
 private:
     const Quotas quotas_;
     const observe::SharedTelemetry telemetry_;
     CallRate rate_;
+    const AnswerShares documents_;
     mutable access::RareWarnings told_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/api/scene_desk.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -14,8 +15,10 @@
 #include "coordinator/api/state_file.h"
 #include "eyrie/v1/kept_state.pb.h"
 #include "fabric/log.h"
+#include "fabric/scene_reach.h"
 #include "fabric/status.h"
 #include "wire/scene.h"
+#include "wire/scene_info.h"
 
 namespace eyrie::api {
 namespace {
@@ -131,17 +134,30 @@ absl::Status SceneDesk::checkSize(const std::vector<NamedFile>& files,
                         bytes, most.sceneBytes));
     std::uint64_t triangles = 0;
     for (const NamedFile& file : files) {
-        const absl::StatusOr<std::uint64_t> of = data_.trianglesOf(file.name, stop);
-        if (absl::IsFailedPrecondition(of.status()))
-            return atObject(file.object, of.status());
-        RETURN_IF_ERROR(of.status());
-        triangles += *of;
+        const absl::StatusOr<v1::DataSet> set = data_.look(file.name, stop);
+        if (absl::IsFailedPrecondition(set.status()))
+            return atObject(file.object, set.status());
+        RETURN_IF_ERROR(set.status());
+        triangles += static_cast<std::uint64_t>(std::max<std::int64_t>(0, set->triangles()));
     }
     if (most.sceneTriangles == 0 || triangles <= most.sceneTriangles)
         return absl::OkStatus();
     return absl::InvalidArgumentError(
         fmt::format("scene.objects have {} triangles; at most {} are drawn at a time", triangles,
                     most.sceneTriangles));
+}
+
+absl::Status SceneDesk::checkReach(const std::vector<NamedFile>& files, const fabric::Scene& scene,
+                                   const std::stop_token& stop) const {
+    for (const NamedFile& file : files) {
+        ASSIGN_OR_RETURN(const v1::DataSet set, data_.look(file.name, stop));
+        const absl::StatusOr<fabric::Box> bounds = wire::fromMessage(set.bounds());
+        const fabric::SceneObject& object = scene.objects[static_cast<std::size_t>(file.object)];
+        if (bounds.ok())  // else it has none
+            RETURN_IF_ERROR(
+                fabric::checkReach(object, fabric::transformed(*bounds, object.worldFromObject)));
+    }
+    return absl::OkStatus();
 }
 
 absl::StatusOr<fabric::Scene> SceneDesk::resolved(v1::Scene message,
@@ -181,7 +197,9 @@ absl::StatusOr<fabric::Scene> SceneDesk::resolved(v1::Scene message,
         return quotas_.counted(observe::Quota::Scene, status);
     else if (!status.ok())
         return status;
-    return wire::fromMessage(message);
+    ASSIGN_OR_RETURN(fabric::Scene scene, wire::fromMessage(message));
+    RETURN_IF_ERROR(checkReach(files, scene, stop));
+    return scene;
 }
 
 absl::Status SceneDesk::show(v1::Scene message, const std::stop_token& stop) {

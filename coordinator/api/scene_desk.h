@@ -58,6 +58,8 @@ private:
         std::string name;
     };
     absl::Status checkSize(const std::vector<NamedFile>& files, const std::stop_token& stop) const;
+    absl::Status checkReach(const std::vector<NamedFile>& files, const fabric::Scene& scene,
+                            const std::stop_token& stop) const;
 
     const std::optional<access::DataFolder>& folder_;
     DataDesk& data_;

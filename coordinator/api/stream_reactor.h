@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -8,16 +9,20 @@
 #include <grpcpp/support/server_callback.h>
 
 #include "coordinator/api/message_stream.h"
+#include "wire/answer_limit.h"
 #include "wire/status.h"
 
 namespace eyrie::api {
 
 /// A call whose answer goes on, over gRPC: sends one message after another, the next when the one
 /// before has gone out, so that nothing is queued for who reads slowly. Ends when the caller goes,
-/// its deadline passes or there are no more messages. Ends itself.
+/// its deadline passes, it takes no message for a while or there are no more. Ends itself.
 template <typename Answer>
 class StreamReactor final : public grpc::ServerWriteReactor<Answer> {
 public:
+    StreamReactor(grpc::CallbackServerContext& context, std::chrono::milliseconds patience)
+        : limit_(context, patience) {}
+
     /// Why there is no answer, or what it is.
     void begin(absl::StatusOr<std::unique_ptr<MessageStream>> messages) {
         if (!messages.ok())
@@ -39,6 +44,7 @@ private:
         if (isFinished_)
             return;
         sent_ = *message;
+        limit_.sends(sent_->ByteSizeLong());
         this->StartWrite(static_cast<const Answer*>(sent_.get()));
     }
 
@@ -49,6 +55,7 @@ private:
     }
 
     void OnWriteDone(bool isGood) override {
+        limit_.taken();
         if (isGood)
             ask();
         else
@@ -60,6 +67,7 @@ private:
         delete this;
     }
 
+    wire::AnswerLimit limit_;
     std::unique_ptr<MessageStream> messages_;
     MessageStream::Message sent_;  ///< until it has gone out
     std::mutex mutex_;             ///< nothing is begun after the end; guards isFinished_

@@ -114,6 +114,8 @@ std::string_view nameOf(Quota quota) {
             return "readers";
         case Quota::Operations:
             return "operations";
+        case Quota::Documents:
+            return "documents";
     }
     return "";
 }

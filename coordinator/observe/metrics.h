@@ -38,9 +38,9 @@ std::string_view nameOf(Stage stage);
 inline constexpr Stage kLastStage = Stage::Send;
 
 /// What may be asked for only so much of; docs/security.md says how much.
-enum class Quota { Image, Scene, Rate, Viewers, Readers, Operations };
+enum class Quota { Image, Scene, Rate, Viewers, Readers, Operations, Documents };
 std::string_view nameOf(Quota quota);
-inline constexpr Quota kLastQuota = Quota::Operations;
+inline constexpr Quota kLastQuota = Quota::Documents;
 
 enum class Peer { Http, WebSocket, Renderer };
 enum class Direction { In, Out };

@@ -41,6 +41,8 @@ Session::Impl::~Impl() {
     frames_.unsubscribe(subscription_);
     for (std::thread& thread : renderers_) thread.join();
     encoder_.join();
+    if (statistics_ != nullptr)
+        statistics_->ended(id_);
 }
 
 std::shared_ptr<Seat> Session::Impl::join(Role role, bool mayControl,

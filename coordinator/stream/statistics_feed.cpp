@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -49,6 +50,8 @@ public:
             const std::lock_guard lock(mutex_);
             message->set_frame(++frames_);
             last_ = message;
+            if (!session.empty())
+                lastOf_[session] = message;
             for (const auto& ear : ears_)
                 if (isFor(*ear, session)) {
                     if (ear->newest != nullptr)
@@ -57,6 +60,11 @@ public:
                 }
         }
         changed_.notify_all();
+    }
+
+    void ended(const std::string& session) {
+        const std::lock_guard lock(mutex_);
+        lastOf_.erase(session);
     }
 
     absl::StatusOr<std::shared_ptr<Ear>> listen(Wish wish) {
@@ -68,8 +76,10 @@ public:
                 "{} programs watch already; end one, or try again later", ears_.size()));
         auto ear = std::make_shared<Ear>();
         ear->wish = std::move(wish);
-        if (last_ != nullptr && isFor(*ear, last_->session()))
+        if (ear->wish.session.empty())
             ear->newest = last_;
+        else if (const auto found = lastOf_.find(ear->wish.session); found != lastOf_.end())
+            ear->newest = found->second;
         ears_.push_back(ear);
         return ear;
     }
@@ -162,6 +172,7 @@ private:
     std::condition_variable changed_;
     std::vector<std::shared_ptr<Ear>> ears_;
     Message last_;
+    std::map<std::string, Message> lastOf_;  ///< by session
     std::uint64_t frames_ = 0;
     bool isStopped_ = false;
     std::mutex joining_;
@@ -196,6 +207,8 @@ absl::StatusOr<std::unique_ptr<StatisticsFeed::Reader>> StatisticsFeed::read(Wis
         return ear.status();
     return std::make_unique<OwnReader>(impl_, *std::move(ear));
 }
+
+void StatisticsFeed::ended(const std::string& session) { impl_->ended(session); }
 
 void StatisticsFeed::stop() { impl_->stop(); }
 

@@ -34,6 +34,8 @@ public:
 
     /// A frame has been drawn for the session of that id; empty: for a program.
     void drawn(const std::string& session, const coordinator::RenderedFrame& frame);
+    /// There is no session of that id any more.
+    void ended(const std::string& session);
 
     struct Wish {
         std::string session = {};                        ///< of its frames only; empty: all
@@ -46,9 +48,9 @@ public:
         /// Ends it: afterwards no `then` runs any more.
         virtual ~Reader() = default;
 
-        /// `then` is called once, without locks held: with the next message, the last frame's the
-        /// first time where there was one; or Unavailable: there will be no more. Not before the
-        /// one before has been called.
+        /// `then` is called once, without locks held: with the next message, the first time with
+        /// that of the last frame, where there was one that it wishes to hear of; or Unavailable:
+        /// there will be no more. Not before the one before has been called.
         virtual void next(Then then) = 0;
     };
 

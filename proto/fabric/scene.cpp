@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "fabric/scene_reach.h"
+
 namespace eyrie::fabric {
 namespace {
 
@@ -14,10 +16,11 @@ absl::Status validateTransform(const SceneObject& object) {
     const Mat4& m = object.worldFromObject;
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
-            if (!std::isfinite(m[column][row]))
-                return absl::InvalidArgumentError(
-                    fmt::format("object '{}': transform element [{}][{}] is not finite",
-                                object.name, row, column));
+            if (!(std::abs(m[column][row]) <= kMaxSceneMetres))
+                return absl::InvalidArgumentError(fmt::format(
+                    "object '{}': transform element [{}][{}] is {:.3g}; it must be from {:g} to "
+                    "{:g}",
+                    object.name, row, column, m[column][row], -kMaxSceneMetres, kMaxSceneMetres));
     if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1)
         return absl::InvalidArgumentError(fmt::format(
             "object '{}': the transform's last row must be 0 0 0 1 (an affine transform)",

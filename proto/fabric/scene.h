@@ -80,7 +80,7 @@ struct Scene {
 
 inline constexpr int kMaxLights = 4;
 
-/// InvalidArgument, naming the object and field, when a transform is not finite, not affine or
+/// InvalidArgument, naming the object and field, when a transform is beyond 1e14, not affine or
 /// singular, a name or path is empty, or there are too many lights.
 absl::Status validate(const Scene& scene);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <numeric>
 #include <utility>
 
@@ -57,7 +58,13 @@ absl::StatusOr<EymFile> EymFile::open(const std::string& path, const page::Sourc
     ASSIGN_OR_RETURN(std::unique_ptr<page::PageSource> source,
                      page::PageSource::open(path, sizeof(EymHeader), options));
     EymFile file(std::move(source));
-    RETURN_IF_ERROR(file.readTables(mostMemoryBytes));
+    try {
+        RETURN_IF_ERROR(file.readTables(mostMemoryBytes));
+    } catch (const std::bad_alloc&) {
+        return absl::ResourceExhaustedError(
+            fmt::format("{}: its tables take {} bytes of memory, which cannot be had", path,
+                        file.tableMemoryBytes()));
+    }
     return file;
 }
 

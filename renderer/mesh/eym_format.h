@@ -209,8 +209,8 @@ public:
     /// `path` may be an address (page/remote_name.h): pages are then read one by one, through the
     /// cache of `options`. Errors: NotFound, PermissionDenied, InvalidArgument (not an .eym file,
     /// another version), DataLoss (truncated, or its tables are damaged); ResourceExhausted, before
-    /// the tables are read, where they would take more than `mostMemoryBytes`; of an address those
-    /// of page::PageSource, too.
+    /// the tables are read, where they would take more than `mostMemoryBytes` or than can be had;
+    /// of an address those of page::PageSource, too.
     static absl::StatusOr<EymFile> open(
         const std::string& path, const page::SourceOptions& options = {},
         std::uint64_t mostMemoryBytes = std::numeric_limits<std::uint64_t>::max());

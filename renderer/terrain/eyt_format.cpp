@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <new>
 #include <utility>
 
 #include <fmt/format.h>
@@ -103,13 +104,15 @@ struct IndexPlaces {
           tilesBytes(std::uint64_t{quadtree.tileCount()} * sizeof(TileRecord)),
           pagesOffset(roundUp(tilesOffset + tilesBytes, 8)),
           pagesBytes(std::uint64_t{quadtree.pageCount()} * sizeof(PageRecord)),
-          pagesEnd(pagesOffset + pagesBytes) {}
+          pagesEnd(pagesOffset + pagesBytes),
+          records(roundUp(header.indexBytes, sizeof(TileRecord)) / sizeof(TileRecord)) {}
 
     std::uint64_t tilesOffset;
     std::uint64_t tilesBytes;
     std::uint64_t pagesOffset;
     std::uint64_t pagesBytes;
     std::uint64_t pagesEnd;
+    std::uint64_t records;  ///< as many tiles as take up what the index does
 };
 
 absl::Status checkIndexBytes(const FileHeader& header, const IndexPlaces& places,
@@ -125,15 +128,8 @@ absl::Status checkIndexBytes(const FileHeader& header, const IndexPlaces& places
     return absl::OkStatus();
 }
 
-/// CRS, tiles and pages out of the index's bytes.
-absl::Status parseIndex(const FileHeader& header, const IndexPlaces& places,
-                        const std::vector<char>& bytes, const std::string& path, EytIndex& index) {
-    index.crsWkt.assign(bytes.data(), header.crsBytes);
-    index.tiles.resize(index.quadtree.tileCount());
-    std::memcpy(index.tiles.data(), bytes.data() + places.tilesOffset, places.tilesBytes);
-    index.pages.resize(index.quadtree.pageCount());
-    std::memcpy(index.pages.data(), bytes.data() + places.pagesOffset, places.pagesBytes);
-
+absl::Status checkRecords(const FileHeader& header, const EytIndex& index,
+                          const std::string& path) {
     for (std::size_t k = 0; k < index.tiles.size(); ++k)
         RETURN_IF_ERROR(checkTile(index.tiles[k], path, k));
     for (std::size_t k = 0; k < index.pages.size(); ++k) {
@@ -146,11 +142,28 @@ absl::Status parseIndex(const FileHeader& header, const IndexPlaces& places,
                                              "among the pages",
                                              k, page.bytes, page.offset));
     }
-    if (places.pagesEnd == bytes.size())
-        return absl::OkStatus();
-    const auto rest = std::as_bytes(std::span(bytes)).subspan(places.pagesEnd);
-    ASSIGN_OR_RETURN(index.imagery, imageryFrom(rest, index.quadtree, header.indexOffset, path));
     return absl::OkStatus();
+}
+
+/// Reads CRS, tiles, pages and imagery. The bytes lie where the tiles will, which are most of
+/// them: an index is never in memory twice.
+absl::Status readIndex(const FileHeader& header, const IndexPlaces& places,
+                       const page::PageSource& source, EytIndex& index) {
+    index.tiles.resize(places.records);
+    const std::span<std::byte> bytes =
+        std::as_writable_bytes(std::span(index.tiles)).first(header.indexBytes);
+    RETURN_IF_ERROR(source.read({header.indexOffset, header.indexBytes, header.indexChecksum},
+                                bytes, "the index"));
+    index.crsWkt.assign(reinterpret_cast<const char*>(bytes.data()), header.crsBytes);
+    index.pages.resize(index.quadtree.pageCount());
+    std::memcpy(index.pages.data(), bytes.data() + places.pagesOffset, places.pagesBytes);
+    if (places.pagesEnd < bytes.size()) {
+        ASSIGN_OR_RETURN(index.imagery, imageryFrom(bytes.subspan(places.pagesEnd), index.quadtree,
+                                                    header.indexOffset, source.name()));
+    }
+    std::memmove(bytes.data(), bytes.data() + places.tilesOffset, places.tilesBytes);
+    index.tiles.resize(index.quadtree.tileCount());
+    return checkRecords(header, index, source.name());
 }
 
 /// Whether each tile of the page has the triangles and normals that the index says.
@@ -294,17 +307,19 @@ absl::StatusOr<std::shared_ptr<const EytFile>> EytFile::open(const std::string& 
     index.nodataPosts = header.nodataPosts;
     const IndexPlaces places(header, index.quadtree);
     RETURN_IF_ERROR(checkIndexBytes(header, places, index.quadtree, path));
-    file->indexMemoryBytes_ =
-        places.tilesBytes + places.pagesBytes + recordBytes(header.indexBytes - places.pagesEnd);
+    file->indexMemoryBytes_ = places.records * sizeof(TileRecord) + places.pagesBytes +
+                              recordBytes(header.indexBytes - places.pagesEnd);
     if (file->indexMemoryBytes_ > mostMemoryBytes)
         return absl::ResourceExhaustedError(
             fmt::format("{}: its index takes {} bytes of memory, {} are left", path,
                         file->indexMemoryBytes_, mostMemoryBytes));
-    std::vector<char> bytes(header.indexBytes);
-    RETURN_IF_ERROR(
-        file->source_->read({header.indexOffset, header.indexBytes, header.indexChecksum},
-                            std::as_writable_bytes(std::span(bytes)), "the index"));
-    RETURN_IF_ERROR(parseIndex(header, places, bytes, path, index));
+    try {
+        RETURN_IF_ERROR(readIndex(header, places, *file->source_, index));
+    } catch (const std::bad_alloc&) {
+        return absl::ResourceExhaustedError(
+            fmt::format("{}: its index takes {} bytes of memory, which cannot be had", path,
+                        file->indexMemoryBytes_));
+    }
     return file;
 }
 

@@ -198,7 +198,8 @@ public:
     /// Reads and checks header and index. `path` may be an address (page/remote_name.h). Errors:
     /// NotFound, InvalidArgument (not an .eyt, or a newer version), DataLoss (truncated, or a
     /// checksum fails); ResourceExhausted, before the index is read, where that would take more
-    /// than `mostMemoryBytes`; of an address PermissionDenied and Unavailable, too.
+    /// than `mostMemoryBytes` or than can be had; of an address PermissionDenied and Unavailable,
+    /// too.
     static absl::StatusOr<std::shared_ptr<const EytFile>> open(
         const std::string& path, const page::SourceOptions& options = {},
         std::uint64_t mostMemoryBytes = std::numeric_limits<std::uint64_t>::max());

@@ -141,6 +141,26 @@ TEST_F(RestData, ScenesOfDamagedFilesAreRefused) {
                                HasSubstr("this is no .eyt file")));
 }
 
+TEST_F(RestData, ScenesThatReachFartherThanCamerasAreRefused) {
+    std::ofstream(data() / "survey/dem.eyt") << "a terrain";
+    run_ = [](const auto&, const auto&, const auto&) {
+        return ProgramEnd{false, 0,
+                          R"({"kind":"terrain","bounds":{"min":[0,0,0],"max":[1000,900,10]}})"};
+    };
+    const auto show = [&](const std::string& transform) {
+        return ask("PUT", "/scene",
+                   R"({"objects":[{"terrain":"survey/dem.eyt","transform":)" + transform + "}]}");
+    };
+    EXPECT_EQ(show(R"({"translation":[1e13,0,0],"scale":1e10})").status, 200);
+    for (const char* far : {R"({"translation":[0,-1.1e14,0]})", R"({"scale":1e307})",
+                            R"({"translation":[1e14,0,0]})", R"({"scale":1.1e11})"}) {
+        const RestAnswer answer = show(far);
+        EXPECT_EQ(answer.status, 400) << far;
+        EXPECT_THAT(member(answer, "detail"),
+                    testing::AllOf(HasSubstr("object 'dem.eyt'"), HasSubstr("1e+14")));
+    }
+}
+
 TEST_F(RestData, WhatWentWrongOnceIsNotHeldAgainstAFile) {
     std::ofstream(data() / "survey/dem.eyt") << "a terrain";
     const char* scene = R"({"objects":[{"terrain":"survey/dem.eyt"}]})";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -45,7 +46,7 @@ protected:
                                               },
                                               access::DataFolder::open(data()).value(), programs,
                                               quotas, telemetry_});
-        service_ = std::make_unique<CoordinatorService>();
+        service_ = std::make_unique<CoordinatorService>(wire::Security(), patience_);
         service_->use(api_->handlers());
         const std::string address = "unix:" + folder_.path("s");
         listening_ = wire::listen({address}, std::vector<grpc::Service*>{service_.get()}).value();
@@ -98,6 +99,7 @@ protected:
     coordinator::FakeFrameSource frames_;
     NoConfigurationAtAll configuration_;
     observe::SharedTelemetry telemetry_ = std::make_shared<observe::Telemetry>();
+    std::chrono::milliseconds patience_ = wire::AnswerLimit::kPatience;  ///< of the next API
     std::unique_ptr<Api> api_;
     std::unique_ptr<CoordinatorService> service_;
     wire::Listening listening_;

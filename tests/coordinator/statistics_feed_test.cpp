@@ -139,6 +139,26 @@ TEST(StatisticsFeed, TellsOfOneSessionOnly) {
     EXPECT_EQ((*heard.last())->left_out(), 0U) << "those of others count for nothing";
 }
 
+TEST(StatisticsFeed, TellsTheLastFrameOfTheSessionThoughOthersFollowed) {
+    StatisticsFeed feed;
+    feed.drawn("a", frameOf(1));
+    feed.drawn("b", frameOf(2));
+    feed.drawn("", frameOf(3));
+    Heard heard;
+    const auto reader = feed.read({"a", {}}).value();
+    reader->next(heard.then());
+    ASSERT_TRUE(heard.becomes(1));
+    EXPECT_EQ(heard.triangles(), 1U);
+    EXPECT_EQ((*heard.last())->left_out(), 0U);
+    feed.ended("a");
+    Heard next;
+    const auto other = feed.read({"a", {}}).value();
+    other->next(next.then());
+    feed.drawn("a", frameOf(4));
+    ASSERT_TRUE(next.becomes(1));
+    EXPECT_EQ(next.triangles(), 4U) << "of the session that has the name now";
+}
+
 TEST(StatisticsFeed, TellsWhoWaitsThatThereWillBeNoMore) {
     StatisticsFeed feed;
     Heard heard;

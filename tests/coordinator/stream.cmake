@@ -17,7 +17,7 @@ if(EYRIE_SANITIZE MATCHES thread)
     target_compile_options(http_server_test PRIVATE -Wno-tsan)  # as in coordinator/http.cmake
     target_compile_options(http_access_test PRIVATE -Wno-tsan)
 endif()
-eyrie_test(api_test LABEL unit SOURCES api_bench_test.cpp api_change_test.cpp api_data_test.cpp api_flight_test.cpp api_grpc_test.cpp api_image_test.cpp api_quota_test.cpp api_session_test.cpp api_test.cpp api_trouble_test.cpp
+eyrie_test(api_test LABEL unit SOURCES api_bench_test.cpp api_change_test.cpp api_data_test.cpp api_flight_test.cpp api_grpc_test.cpp api_image_test.cpp api_quota_test.cpp api_session_test.cpp api_test.cpp api_trouble_test.cpp api_untaken_test.cpp
                    operations_test.cpp
            LINK eyrie::api eyrie::frame eyrie::jpeg eyrie::wire eyrie::proto fmt::fmt spdlog::spdlog)
 eyrie_test(http_api_test LABEL unit LINK eyrie::http eyrie::api eyrie::proto eyrie::wire Boost::headers Threads::Threads

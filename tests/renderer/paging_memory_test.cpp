@@ -67,7 +67,7 @@ TEST_F(Paging, TooLittleMemoryForAPageKeepsTheSceneFromOpening) {
 
 TEST_F(Paging, AnIndexCountsAsHostMemory) {
     const terrain::EytIndex& index = file_->index();
-    const std::uint64_t bytes = index.tiles.size() * sizeof(terrain::TileRecord) +
+    const std::uint64_t bytes = index.tiles.capacity() * sizeof(terrain::TileRecord) +
                                 index.pages.size() * sizeof(terrain::PageRecord);
     EXPECT_EQ(open(scene_.objects[0].path)->memory().hostBytes, bytes) << "and no page yet";
 }

@@ -44,6 +44,7 @@ struct FakeDrawerControl {
     std::atomic<bool> saysNearlyDrawn{false};  ///< before it waits
     std::atomic<bool> usesRoom{false};         ///< that it is given for its pixels
     std::atomic<bool> fails{false};
+    std::atomic<bool> hasNoMemory{false};
 
     /// What is drawn in place of a gradient, once it is set; not while a call is under way.
     std::optional<fabric::Image> image;
@@ -90,6 +91,8 @@ public:
         }
         if (control_->fails)
             return absl::DataLossError("page 7 is damaged");
+        if (control_->hasNoMemory)
+            throw std::bad_alloc();
         ++control_->drawn;
         fabric::ChannelResult result = control_->image ? fabric::ChannelResult{*control_->image, {}}
                                                        : picture(frameData, task);

@@ -21,6 +21,7 @@
 #include "tests/support/temporary_folder.h"
 #include "wire/frame.h"
 #include "wire/jpeg.h"
+#include "wire/listen.h"
 #include "wire/picture_header.h"
 #include "wire/transport.h"
 
@@ -348,6 +349,17 @@ TEST_F(RenderServerTest, ASceneThatTakesAllMemoryIsRefusedAndTheNextOneOpens) {
     EXPECT_TRUE(renderer_->openScene({}, soon()).ok());
 }
 
+TEST_F(RenderServerTest, AChannelThatTakesAllMemoryIsRefusedAndTheNextOneDrawn) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    control_->hasNoMemory = true;
+    const absl::Status refused = renderer_->render(task(8, 4, true), soon()).status();
+    EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_THAT(std::string(refused.message()),
+                testing::HasSubstr("8x4 pixels and their depths within 2 pixels"));
+    control_->hasNoMemory = false;
+    EXPECT_TRUE(renderer_->render(task(8, 4, true), soon()).ok());
+}
+
 TEST_F(RenderServerTest, AnOpenSceneReportsItsExtent) {
     const auto info = renderer_->openScene({}, soon());
     ASSERT_TRUE(info.ok()) << info.status();
@@ -402,6 +414,30 @@ TEST_F(RenderServerTest, ReadersThatNeverReadAreBounded) {
               absl::StatusCode::kResourceExhausted);
     for (const auto& context : contexts) context->TryCancel();
     EXPECT_TRUE(eventually([&] { return renderer_->render(task(8, 8, false), soon()).ok(); }));
+}
+
+TEST_F(RenderServerTest, ReadersThatNeverReadAreGivenUpAfterAWhile) {
+    RenderService service(*thread_, {}, std::chrono::milliseconds(300));
+    const wire::Listening impatient = wire::listen({"unix:" + folder_.path("i")}, service).value();
+    const auto stub = v1::RenderService::NewStub(grpc::CreateCustomChannel(
+        impatient.addresses.front(), grpc::InsecureChannelCredentials(), wire::clientArguments()));
+    const auto renderer = coordinator::connectRenderer(impatient.addresses.front());
+    ASSERT_TRUE(renderer->setFrameData(frameData(), soon()).ok());
+    v1::RenderChannelRequest request;
+    *request.mutable_task() = wire::toMessage(task(2000, 1300, true));
+    std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
+    std::vector<std::unique_ptr<grpc::ClientReader<v1::RenderChannelResponse>>> idle;
+    for (int i = 0; i <= ReplySlots::kMaxOpen; ++i) {
+        contexts.push_back(std::make_unique<grpc::ClientContext>());
+        idle.push_back(stub->RenderChannel(contexts.back().get(), request));
+        idle.back()->WaitForInitialMetadata();
+    }
+    EXPECT_TRUE(eventually([&] { return renderer->render(task(8, 8, false), soon()).ok(); }));
+    v1::RenderChannelResponse message;
+    while (idle.front()->Read(&message)) {
+    }
+    EXPECT_EQ(idle.front()->Finish().error_code(), grpc::StatusCode::CANCELLED);
+    impatient.server->Shutdown();
 }
 
 TEST_F(RenderServerTest, CancelEndsTheCallInProgressAndEveryLaterOne) {

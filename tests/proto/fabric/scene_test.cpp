@@ -35,6 +35,17 @@ TEST(Scene, ARefusedTransformNamesItsObject) {
         EXPECT_THAT(refusal(sceneWith(object)), testing::HasSubstr("'bunny'"));
 }
 
+TEST(Scene, AnObjectIsNotMovedOrScaledWhereNoCameraSeesAllOfIt) {
+    for (const int column : {1, 3}) {
+        SceneObject far = bunny();
+        far.worldFromObject[column][1] = -1e14;
+        EXPECT_TRUE(validate(sceneWith(far)).ok());
+        far.worldFromObject[column][1] = -1.1e14;
+        EXPECT_THAT(refusal(sceneWith(far)),
+                    testing::HasSubstr("is -1.1e+14; it must be from -1e+14 to 1e+14"));
+    }
+}
+
 TEST(Scene, AnObjectNeedsANameAndAPath) {
     SceneObject nameless = bunny();
     nameless.name.clear();

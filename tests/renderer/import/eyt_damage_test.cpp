@@ -12,6 +12,7 @@
 #include "renderer/terrain/eyt_layout.h"
 #include "tests/renderer/import/terrain_fixture.h"
 #include "tests/renderer/terrain/hard_grids.h"
+#include "tests/support/memory_limit.h"
 
 namespace eyrie {
 namespace {
@@ -112,6 +113,35 @@ TEST_F(EytDamage, AnIndexLargerThanItsPostsCanHaveIsRefusedBeforeItIsRead) {
     EXPECT_NE(refused.ToString().find(path_ + ": header.indexBytes is 8796093022208"),
               std::string::npos)
         << refused;
+}
+
+TEST_F(EytDamage, AnIndexIsInMemoryOnce) {
+    if (!test::MemoryLimit::kIsPossible)
+        GTEST_SKIP();
+    terrain::FileHeader header;
+    std::memcpy(static_cast<void*>(&header), bytes_.data(), sizeof header);
+    header.columns = header.rows = 45'000;
+    const terrain::Quadtree quadtree(45'000, 45'000);
+    header.levels = static_cast<std::uint32_t>(quadtree.levels());
+    header.crsBytes = 0;
+    header.indexOffset = sizeof header;
+    header.indexBytes = terrain::roundUp(quadtree.tileCount() * sizeof(terrain::TileRecord), 8) +
+                        quadtree.pageCount() * sizeof(terrain::PageRecord);
+    header.indexChecksum = XXH64(std::vector<char>(header.indexBytes).data(), header.indexBytes, 0);
+    header.headerChecksum = XXH64(&header, offsetof(terrain::FileHeader, headerChecksum), 0);
+    writeBytes(path_, {reinterpret_cast<const char*>(&header),
+                       reinterpret_cast<const char*>(&header) + sizeof header});
+    std::filesystem::resize_file(path_, header.indexOffset + header.indexBytes);
+    {
+        const test::MemoryLimit limit(header.indexBytes * 3 / 2);
+        const auto file = terrain::EytFile::open(path_);
+        ASSERT_TRUE(file.ok()) << file.status();
+        EXPECT_LT((*file)->indexMemoryBytes(), header.indexBytes * 5 / 4);
+    }
+    const test::MemoryLimit limit(header.indexBytes / 2);
+    const absl::Status refused = terrain::EytFile::open(path_).status();
+    EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted) << refused;
+    EXPECT_NE(refused.ToString().find("its index takes"), std::string::npos) << refused;
 }
 
 TEST_F(EytDamage, APageLargerThanItsTilesCanHaveIsRefusedBeforeItIsRead) {
