@@ -38,6 +38,11 @@ std::uint64_t residentBytes(const HeightSource& posts, bool hasImagery) {
                static_cast<std::uint64_t>(posts.frame().rows) / kPostsPerByte;
 }
 
+std::uint64_t residentBytes(const HeightSource& posts, const ImagerySource* imagery) {
+    return residentBytes(posts, imagery != nullptr) +
+           (imagery == nullptr ? 0 : imagery->readingBytes());
+}
+
 /// What level 0 may be off at least: where heights are rounded, by half a step for that and half of
 /// it again for what is left out.
 double finestErrorMetres(const terrain::HeightLattice& lattice) {
@@ -72,9 +77,9 @@ std::vector<std::string> notesOnError(const terrain::HeightLattice& lattice,
                     finest, *errorMetres, lattice.stepMetres)};
 }
 
-std::vector<std::string> notesOnMemory(const HeightSource& posts, bool hasImagery,
+std::vector<std::string> notesOnMemory(const HeightSource& posts, const ImagerySource* imagery,
                                        std::uint64_t memoryBytes) {
-    const std::uint64_t taken = residentBytes(posts, hasImagery) + kLeastScratch;
+    const std::uint64_t taken = residentBytes(posts, imagery) + kLeastScratch;
     if (taken <= memoryBytes)
         return {};
     return {
@@ -104,8 +109,14 @@ std::uint32_t texturesOf(const ImagerySource* imagery) {
                                     static_cast<std::uint32_t>(imagery->pyramid().tilesY(0));
 }
 
-std::uint64_t scratchBytes(const HeightSource& posts, bool hasImagery, std::uint64_t memoryBytes) {
-    const std::uint64_t resident = residentBytes(posts, hasImagery);
+std::uint64_t imageryCacheBytes(const HeightSource& posts, std::uint64_t memoryBytes) {
+    const std::uint64_t resident = residentBytes(posts, true);
+    return memoryBytes > resident ? (memoryBytes - resident) / 3 : 0;
+}
+
+std::uint64_t scratchBytes(const HeightSource& posts, const ImagerySource* imagery,
+                           std::uint64_t memoryBytes) {
+    const std::uint64_t resident = residentBytes(posts, imagery);
     return std::max(kLeastScratch, memoryBytes > resident ? memoryBytes - resident : 0);
 }
 
