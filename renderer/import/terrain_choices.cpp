@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include "fabric/name_beside.h"
 #include "renderer/import/terrain_import.h"
 
 namespace eyrie::import {
@@ -123,11 +124,11 @@ std::uint64_t scratchBytes(const HeightSource& posts, const ImagerySource* image
 std::string scratchPath(const std::string& out, const std::string& folder) {
     namespace fs = std::filesystem;
     if (folder.empty())
-        return out + ".scratch";
+        return fabric::nameBeside(out, ".scratch");
     const std::string whole = fs::absolute(out).lexically_normal().string();
-    return (fs::path(folder) / fmt::format("{}-{:016x}.scratch", fs::path(out).filename().string(),
-                                           XXH64(whole.data(), whole.size(), 0)))
-        .string();
+    return fabric::nameBeside(
+        (fs::path(folder) / fs::path(out).filename()).string(),
+        fmt::format("-{:016x}.scratch", XXH64(whole.data(), whole.size(), 0)));
 }
 
 }  // namespace eyrie::import
