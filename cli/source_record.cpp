@@ -4,11 +4,14 @@
 #include <fstream>
 
 #include "cli/image_files.h"
+#include "fabric/name_beside.h"
 #include "renderer/import/raster_name.h"
 
 namespace eyrie::cli {
 
-std::string sourceRecordName(const std::string& imported) { return imported + ".source"; }
+std::string sourceRecordName(const std::string& imported) {
+    return fabric::nameBeside(imported, ".source");
+}
 
 absl::Status recordSources(const std::string& imported, const std::vector<std::string>& sources) {
     std::vector<std::string> absolute;

@@ -11,6 +11,7 @@
 
 #include "coordinator/api/data_sets.h"
 #include "coordinator/api/work_folder.h"
+#include "fabric/name_beside.h"
 #include "fabric/status.h"
 
 namespace eyrie::api {
@@ -138,7 +139,8 @@ absl::Status checkOutput(const ImportOrder& order, const std::string& name) {
 absl::Status moveInto(const fs::path& made, const fs::path& place) {
     std::error_code error;
     for (const char* const ending : {".source", ""}) {
-        fs::rename(made.string() + ending, place.string() + ending, error);
+        fs::rename(fabric::nameBeside(made.string(), ending),
+                   fabric::nameBeside(place.string(), ending), error);
         if (error)
             return absl::UnavailableError(
                 fmt::format("what was made cannot be put in its place: {}", error.message()));

@@ -14,6 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "fabric/name_beside.h"
 #include "fabric/status.h"
 
 namespace eyrie::fabric {
@@ -30,8 +31,13 @@ bool lock(int fd) {
     return flock(fd, LOCK_EX | LOCK_NB) == 0 && fstat(fd, &status) == 0 && status.st_nlink > 0;
 }
 
-/// Of which file a partial one of this name is; empty where it is none.
-std::string_view wholeName(std::string_view name) {
+std::string endingOf(std::uint64_t number) {
+    return fmt::format("{}{:0{}x}", kMark, number, kDigits);
+}
+
+/// What the name of a partial file has before its mark: its file's name, unless that is too long.
+/// Empty where it is none.
+std::string_view beginningOf(std::string_view name) {
     const std::size_t mark = name.rfind(kMark);
     if (mark == std::string_view::npos)
         return {};
@@ -51,14 +57,14 @@ void removeIfAbandoned(const fs::path& partial) {
     close(fd);
 }
 
-/// `whole`: of which file; empty: of any.
-void removeAbandonedIn(const fs::path& folder, std::string_view whole) {
+/// `beginning`: of which names; empty: of any.
+void removeAbandonedIn(const fs::path& folder, std::string_view beginning) {
     std::error_code error;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {
         const std::string name = entry->path().filename().string();
-        const std::string_view own = wholeName(name);
-        if (!own.empty() && (whole.empty() || own == whole))
+        const std::string_view own = beginningOf(name);
+        if (!own.empty() && (beginning.empty() || own == beginning))
             removeIfAbandoned(entry->path());
     }
 }
@@ -73,7 +79,7 @@ absl::StatusOr<PartialFile> createPartial(const std::string& path) {
     std::random_device random;
     for (int i = 0; i < kTries; ++i) {
         const std::uint64_t number = std::uint64_t{random()} << 32 | random();
-        std::string partial = fmt::format("{}{}{:0{}x}", path, kMark, number, kDigits);
+        std::string partial = nameBeside(path, endingOf(number));
         const int fd = open(partial.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (fd < 0)
             return writeError(path, "cannot create it", errno);
@@ -92,7 +98,8 @@ absl::StatusOr<PartialFile> createPartial(const std::string& path) {
 
 void removeAbandoned(const std::string& path) {
     const fs::path whole = fs::absolute(path);
-    removeAbandonedIn(whole.parent_path(), whole.filename().string());
+    const std::string any = nameBeside(whole.filename().string(), endingOf(0));
+    removeAbandonedIn(whole.parent_path(), beginningOf(any));
 }
 
 void removeAllAbandoned(const fs::path& folder) { removeAbandonedIn(folder, {}); }

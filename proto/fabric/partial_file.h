@@ -14,10 +14,10 @@ struct PartialFile {
     int fd = -1;  ///< to read and write; the caller closes it
 };
 
-/// Makes `PATH.partial-` and 16 random hexadecimal digits, empty, and removes what killed writers
-/// of the same path have left. It is locked for as long as it is open, so that processes on other
-/// machines and in other containers, too, see that its writer lives: rename or remove it before it
-/// is closed. Errors: those of writeError; Unavailable.
+/// Makes `PATH.partial-` and 16 random hexadecimal digits (nameBeside), empty, and removes what
+/// killed writers of the same path have left. It is locked for as long as it is open, so that
+/// processes on other machines and in other containers, too, see that its writer lives: rename or
+/// remove it before it is closed. Errors: those of writeError; Unavailable.
 absl::StatusOr<PartialFile> createPartial(const std::string& path);
 
 /// Removes files beside `path` that killed writers of it have left.

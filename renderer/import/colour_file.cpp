@@ -14,6 +14,7 @@
 
 #include "fabric/status.h"
 #include "renderer/import/raster_file.h"
+#include "renderer/import/strip_order.h"
 
 namespace eyrie::import {
 namespace {
@@ -135,12 +136,31 @@ std::uint8_t toByte(double value) {
     return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
 }
 
+struct Block {
+    int columns = 0;
+    int rows = 0;
+};
+
+/// What is read at once of pictures in strips: the strips themselves are in GDAL's cache.
+constexpr Block kPieceOfStrips{512, kStripPieceRows};
+
+/// What is stored together, unless that is much.
+Block blockOf(GDALRasterBand& band) {
+    Block block;
+    band.GetBlockSize(&block.columns, &block.rows);
+    constexpr std::int64_t kMostValues = 1 << 22;
+    if (block.columns < 1 || block.rows < 1 ||
+        std::int64_t{block.columns} * block.rows > kMostValues)
+        return {512, 512};
+    return block;
+}
+
 class ColourDataset;
 
 /// One of the four bands; a block of one brings those of the others.
 class ColourBand : public GDALRasterBand {
 public:
-    ColourBand(ColourDataset* owner, int number, const GDALRasterBand& shape);
+    ColourBand(ColourDataset* owner, int number, GDALRasterBand& shape);
 
     GDALColorInterp GetColorInterpretation() override {
         constexpr std::array kTags = {GCI_RedBand, GCI_GreenBand, GCI_BlueBand, GCI_AlphaBand};
@@ -180,10 +200,27 @@ public:
 
     void setMost(double value) { rule_.bytePerValue = 255 / value; }
 
+    /// 0 where it is not in strips.
+    std::uint64_t stripRowBytes() const {
+        GDALDataset& from = *GDALDataset::FromHandle(source_.get());
+        return isInStrips(*from.GetRasterBand(rule_.colours[0])) ? rowBytes(from) : 0;
+    }
+    void readInOrder(int rows) {
+        std::vector<GDALRasterBand*> all;
+        const auto add = [&](int band) {
+            all.push_back(GDALDataset::FromHandle(source_.get())->GetRasterBand(band));
+        };
+        for (int c = 0; c < bands(); ++c) add(rule_.colours[static_cast<std::size_t>(c)]);
+        if (rule_.alpha != 0)
+            add(rule_.alpha);
+        order_ = StripOrder(std::move(all), rows);
+    }
+
     /// The four channels of a rectangle, one after the other.
     CPLErr read(int i, int j, int columns, int rows, std::vector<std::uint8_t>& out) {
         const std::size_t count =
             static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+        order_.prepare(j, j + rows);
         if (readValues(i, j, columns, rows) != CE_None)
             return CE_Failure;
         out.resize(kBands * count);
@@ -197,14 +234,13 @@ public:
     /// Of all values that are not in a hole, at least 0. What cannot be read is left out: it is
     /// told when it is asked for.
     double brightest() {
-        int side = 0;
-        int blockRows = 0;
-        GetRasterBand(1)->GetBlockSize(&side, &blockRows);
+        const Block block =
+            blockOf(*GDALDataset::FromHandle(source_.get())->GetRasterBand(rule_.colours[0]));
         int most = 0;
-        for (int j = 0; j < nRasterYSize; j += blockRows)
-            for (int i = 0; i < nRasterXSize; i += side)
-                most = std::max(most, brightest(i, j, std::min(side, nRasterXSize - i),
-                                                std::min(blockRows, nRasterYSize - j)));
+        for (int j = 0; j < nRasterYSize; j += block.rows)
+            for (int i = 0; i < nRasterXSize; i += block.columns)
+                most = std::max(most, brightest(i, j, std::min(block.columns, nRasterXSize - i),
+                                                std::min(block.rows, nRasterYSize - j)));
         return most;
     }
 
@@ -280,19 +316,19 @@ private:
     Dataset source_;
     ColourRule rule_;
     std::optional<std::array<double, 6>> transform_;  ///< none: the source's
+    StripOrder order_;
     std::vector<int> values_;
 };
 
-ColourBand::ColourBand(ColourDataset* owner, int number, const GDALRasterBand& shape) {
+ColourBand::ColourBand(ColourDataset* owner, int number, GDALRasterBand& shape) {
     poDS = owner;
     nBand = number;
     eDataType = GDT_Byte;
     nRasterXSize = owner->GetRasterXSize();
-    nRasterYSize = const_cast<GDALRasterBand&>(shape).GetYSize();
-    const_cast<GDALRasterBand&>(shape).GetBlockSize(&nBlockXSize, &nBlockYSize);
-    constexpr std::int64_t kMostValues = 1 << 22;
-    if (nBlockXSize < 1 || nBlockYSize < 1 || std::int64_t{nBlockXSize} * nBlockYSize > kMostValues)
-        nBlockXSize = nBlockYSize = 512;
+    nRasterYSize = shape.GetYSize();
+    const Block block = isInStrips(shape) ? kPieceOfStrips : blockOf(shape);
+    nBlockXSize = block.columns;
+    nBlockYSize = block.rows;
 }
 
 CPLErr ColourBand::IReadBlock(int x, int y, void* data) {
@@ -356,6 +392,15 @@ absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gd
 void turnToBytes(ColourFile& file, double most) {
     static_cast<ColourDataset*>(GDALDataset::FromHandle(file.dataset.get()))->setMost(most);
     file.notes.push_back(turnedToBytes(file.path, most));
+}
+
+std::uint64_t stripRowBytes(const ColourFile& file) {
+    return static_cast<ColourDataset*>(GDALDataset::FromHandle(file.dataset.get()))
+        ->stripRowBytes();
+}
+
+void readInOrder(ColourFile& file, int rows) {
+    static_cast<ColourDataset*>(GDALDataset::FromHandle(file.dataset.get()))->readInOrder(rows);
 }
 
 }  // namespace eyrie::import

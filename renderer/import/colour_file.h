@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,5 +36,12 @@ absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gd
 /// Says what value of a picture with `brightest` is 255: that of all pictures beside it, so that
 /// one colour is the same in each.
 void turnToBytes(ColourFile& file, double most);
+
+/// Rows that are read at once of a picture in strips (strip_order.h), all that is asked for or not.
+inline constexpr int kStripPieceRows = 128;
+/// What GDAL's cache has of each row of a picture in strips; 0: it is in tiles.
+std::uint64_t stripRowBytes(const ColourFile& file);
+/// Has such a picture decoded once, while GDAL's cache keeps so many rows (see StripOrder).
+void readInOrder(ColourFile& file, int rows);
 
 }  // namespace eyrie::import

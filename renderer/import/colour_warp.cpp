@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -163,6 +164,38 @@ absl::StatusOr<ColourPlace> placeOf(const ColourFile& file, const TexelGrid& gri
     place.high += margin;
     place.pixelPosts = (onTerrain.count > 0 ? onTerrain : anywhere).mean();
     return place;
+}
+
+absl::StatusOr<int> rowsAtOnce(const ColourFile& file, const TexelGrid& grid, int texelShift,
+                               const terrain::TexelRect& box, QuietGdal& gdal) {
+    constexpr std::int64_t kSide = terrain::kTextureSide;
+    constexpr double kPiece = kStripPieceRows;
+    constexpr double kBeside = terrain::kTextureBorder + kPiece;  // blocks of the warped view
+    constexpr int kSteps = 32;
+    ASSIGN_OR_RETURN(const Transformer transformer, transformerOf(file, grid, gdal));
+    const Georeference texels = grid.reference(texelShift);
+    const double height = GDALGetRasterYSize(file.dataset.get());
+    double most = 0;
+    const std::int64_t tileRows = box.rows / kSide + 1;
+    for (std::int64_t row = 0; row < tileRows; row += tileRows / kSteps + 1) {
+        const double top = static_cast<double>(box.y + row * kSide);
+        double low = height;
+        double high = 0;
+        for (int k = 0; k <= kSteps; ++k)
+            for (const double y : {top - kBeside, top + kSide + kBeside}) {
+                const double x = static_cast<double>(box.x) + box.columns * (k / double{kSteps});
+                fabric::Vec2 at = texels.origin + texels.perColumn * x + texels.perRow * y;
+                double z = 0;
+                int isDone = 0;
+                GDALGenImgProjTransform(transformer.get(), TRUE, 1, &at.x, &at.y, &z, &isDone);
+                if (isDone == 0 || !std::isfinite(at.y))
+                    continue;
+                low = std::min(low, at.y);
+                high = std::max(high, at.y);
+            }
+        most = std::max(most, std::min(high, height) - std::max(low, 0.0));
+    }
+    return static_cast<int>(std::ceil(std::min(most + 2 * kPiece, height)));
 }
 
 absl::StatusOr<Dataset> warpedTo(const ColourFile& file, const TexelGrid& grid, int texelShift,

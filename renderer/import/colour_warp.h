@@ -34,6 +34,11 @@ struct ColourPlace {
 /// Errors: InvalidArgument (no way from the file's CRS to the terrain's).
 absl::StatusOr<ColourPlace> placeOf(const ColourFile& file, const TexelGrid& grid, QuietGdal& gdal);
 
+/// The most rows of a picture that one row of texture tiles of `box` takes, and what is read with
+/// them. Errors: as placeOf.
+absl::StatusOr<int> rowsAtOnce(const ColourFile& file, const TexelGrid& grid, int texelShift,
+                               const terrain::TexelRect& box, QuietGdal& gdal);
+
 /// A lazily computed view of `file`, which must outlive it, on the texels of `box`: four bands like
 /// the file's. Errors: InvalidArgument.
 absl::StatusOr<Dataset> warpedTo(const ColourFile& file, const TexelGrid& grid, int texelShift,

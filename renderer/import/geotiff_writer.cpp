@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/geotiff_writer.h"
 
-#include <cstdio>
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <system_error>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "fabric/replaceable.h"
 #include "fabric/status.h"
 #include "renderer/import/gdal_handles.h"
+#include "renderer/import/whole_file.h"
 
 namespace eyrie::import {
 
@@ -22,16 +22,16 @@ absl::Status writeGeoTiff(const terrain::HeightGrid& grid, const std::string& pa
             "{}: cannot create it: {} is no folder; create it first", path, folder.string()));
     RETURN_IF_ERROR(fabric::checkReplaceable(path));
     QuietGdal gdal;
-    const std::string partial = fmt::format("{}.partial-{}", path, getpid());
-    const auto failed = [&](const char* what) {
-        std::remove(partial.c_str());
-        return absl::UnavailableError(fmt::format("{}: {} ({})", path, what, gdal.takeError()));
+    ASSIGN_OR_RETURN(WholeFile whole, WholeFile::create(path));
+    const auto cannotBeWritten = [&](const std::string& error) {
+        return absl::UnavailableError(fmt::format("{}: cannot be written ({})", path, error));
     };
     {
-        const Dataset file(GDALCreate(GDALGetDriverByName("GTiff"), partial.c_str(), grid.columns,
-                                      grid.rows, 1, GDT_Float32, nullptr));
+        // GDAL does not remove what is no raster yet, and so writes the file that is locked.
+        const Dataset file(GDALCreate(GDALGetDriverByName("GTiff"), whole.partialPath().c_str(),
+                                      grid.columns, grid.rows, 1, GDT_Float32, nullptr));
         if (!file)
-            return failed("cannot be written");
+            return cannotBeWritten(gdal.takeError());
         const fabric::Vec2 corner = grid.origin - (grid.perColumn - grid.perRow) * 0.5 +
                                     grid.perRow * static_cast<double>(grid.rows - 1);
         std::array<double, 6> transform = geoTransform({corner, grid.perColumn, -grid.perRow});
@@ -47,15 +47,11 @@ absl::Status writeGeoTiff(const terrain::HeightGrid& grid, const std::string& pa
         if (GDALRasterIOEx(band, GF_Write, 0, 0, grid.columns, grid.rows,
                            const_cast<float*>(grid.row(grid.rows - 1)), grid.columns, grid.rows,
                            GDT_Float32, sizeof(float), -stride, nullptr) != CE_None)
-            return failed("cannot be written");
+            return cannotBeWritten(gdal.takeError());
     }
-    if (const std::string error = gdal.takeError(); !error.empty()) {
-        std::remove(partial.c_str());
-        return absl::UnavailableError(fmt::format("{}: cannot be written ({})", path, error));
-    }
-    if (std::rename(partial.c_str(), path.c_str()) != 0)
-        return failed("cannot be renamed from its partial file");
-    return absl::OkStatus();
+    if (const std::string error = gdal.takeError(); !error.empty())
+        return cannotBeWritten(error);
+    return whole.commit();
 }
 
 }  // namespace eyrie::import

@@ -14,6 +14,7 @@
 #include "fabric/status.h"
 #include "renderer/import/colour_file.h"
 #include "renderer/import/colour_warp.h"
+#include "renderer/import/layered_dems.h"
 #include "renderer/import/raster_file.h"
 
 namespace eyrie::import {
@@ -38,15 +39,17 @@ class LayeredImagery : public ImagerySource {
 public:
     /// Best layer first, over `frame`.
     LayeredImagery(std::vector<Layer> layers, const TexturePyramid& pyramid,
-                   const terrain::GridFrame& frame)
+                   const terrain::GridFrame& frame, std::uint64_t readingBytes)
         : layers_(std::move(layers)),
           pyramid_(pyramid),
+          readingBytes_(readingBytes),
           isLastRowFirst_(frame.perRow.y > 0),
           seenColumns_(middlesWithin(frame.columns, pyramid)),
           seenRows_(middlesWithin(frame.rows, pyramid)) {}
 
     const TexturePyramid& pyramid() const override { return pyramid_; }
     bool isLastRowFirst() const override { return isLastRowFirst_; }
+    std::uint64_t readingBytes() const override { return readingBytes_; }
 
     absl::Status read(const TexelRect& window, std::span<fabric::Rgba> out) override {
         std::fill(out.begin(), out.end(), fabric::Rgba{0, 0, 0, 0});
@@ -141,6 +144,7 @@ private:
 
     std::vector<Layer> layers_;
     TexturePyramid pyramid_;
+    std::uint64_t readingBytes_;
     bool isLastRowFirst_;       ///< pictures begin in the north; so do rows that go towards lower y
     std::int64_t seenColumns_;  ///< whose middles lie within the terrain: all, or all but the last
     std::int64_t seenRows_;
@@ -192,7 +196,7 @@ public:
         return absl::OkStatus();
     }
 
-    absl::StatusOr<OpenImagery> open() {
+    absl::StatusOr<OpenImagery> open(std::uint64_t cacheBytes) {
         if (layers_.empty())
             return absl::InvalidArgumentError(fmt::format(
                 "{}: no picture overlaps the terrain; check their coordinates and CRS (gdalinfo)",
@@ -216,10 +220,11 @@ public:
             layer.box = boxOf(layer.place, pyramid);
             ASSIGN_OR_RETURN(layer.warped, warpedTo(layer.file, grid_, shift, layer.box, gdal_));
         }
+        ASSIGN_OR_RETURN(const std::uint64_t reading, readStripsInOrder(shift, cacheBytes));
         notes_.push_back(fmt::format("imagery of {} x {} texels, 2^{} a post", pyramid.width(0),
                                      pyramid.height(0), shift));
         return OpenImagery{
-            std::make_unique<LayeredImagery>(std::move(layers_), pyramid, grid_.frame),
+            std::make_unique<LayeredImagery>(std::move(layers_), pyramid, grid_.frame, reading),
             std::move(notes_)};
     }
 
@@ -277,6 +282,35 @@ private:
                 static_cast<std::int32_t>(high.y - low.y)};
     }
 
+    /// Returns the bytes of memory that takes.
+    absl::StatusOr<std::uint64_t> readStripsInOrder(int shift, std::uint64_t most) {
+        constexpr std::uint64_t kRoom = kGdalCacheBytes / 2;  // that it has for strips anyway
+        std::vector<int> rows(layers_.size());
+        std::vector<std::uint64_t> bytes(layers_.size());
+        for (std::size_t k = 0; k < layers_.size(); ++k) {
+            const Layer& layer = layers_[k];
+            const std::uint64_t rowBytes = stripRowBytes(layer.file);
+            if (rowBytes == 0)
+                continue;
+            ASSIGN_OR_RETURN(rows[k], rowsAtOnce(layer.file, grid_, shift, layer.box, gdal_));
+            bytes[k] = rowBytes * static_cast<std::uint64_t>(rows[k]);
+        }
+        const std::uint64_t all = std::accumulate(bytes.begin(), bytes.end(), std::uint64_t{0});
+        const std::uint64_t more = std::min(std::max(all, kRoom) - kRoom, most);
+        GDALSetCacheMax64(static_cast<GIntBig>(kGdalCacheBytes + more));
+        for (std::size_t k = 0; k < layers_.size(); ++k)
+            if (bytes[k] <= kRoom + more)
+                readInOrder(layers_[k].file, rows[k]);
+            else
+                notes_.push_back(fmt::format(
+                    "{}: is stored row by row, of which {} MB are needed at a time, and --memory "
+                    "leaves {} MB: it is decoded again and again; allow more, or store it in tiles "
+                    "first (gdal_translate -co TILED=YES)",
+                    layers_[k].file.path, (bytes[k] >> 20) + 1, (kRoom + more) >> 20));
+        // Their small blocks leave gaps in the heap, about as much again: measured.
+        return more + std::min(all, kRoom + more);
+    }
+
     QuietGdal gdal_;
     TexelGrid grid_;
     std::vector<Layer> layers_;
@@ -288,13 +322,13 @@ private:
 
 absl::StatusOr<OpenImagery> openImagery(const std::vector<std::string>& paths,
                                         const terrain::GridFrame& frame, const std::string& crsWkt,
-                                        const ImportControl& control) {
+                                        std::uint64_t cacheBytes, const ImportControl& control) {
     Overlay overlay(frame, crsWkt);
     for (const std::string& path : paths) {
         RETURN_IF_ERROR(control.check());
         RETURN_IF_ERROR(overlay.add(path));
     }
-    return overlay.open();
+    return overlay.open(cacheBytes);
 }
 
 }  // namespace eyrie::import

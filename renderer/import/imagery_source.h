@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -26,6 +27,8 @@ public:
     /// The texels of a window of the finest level, row by row, those outside of the level as its
     /// nearest; alpha 0 where there is no picture. Errors: DataLoss.
     virtual absl::Status read(const terrain::TexelRect& window, std::span<fabric::Rgba> out) = 0;
+    /// Bytes of memory that reading takes beside what GDAL's cache has otherwise.
+    virtual std::uint64_t readingBytes() const = 0;
 };
 
 /// What pictures were opened as.
@@ -43,10 +46,13 @@ struct OpenImagery {
 /// last. A picture without a georeference is stretched over the whole terrain, north up; one
 /// without a CRS is taken to be in the terrain's.
 ///
+/// Pictures in strips are decoded about once where GDAL's cache holds the rows that a row of
+/// texture tiles takes: it grows for them, by `cacheBytes` at most. Notes say of which it cannot.
+///
 /// Errors, naming the file: NotFound, InvalidArgument (no picture, not to be brought to the
 /// terrain, none overlaps it), ResourceExhausted (more texels than an .eyt holds).
 absl::StatusOr<OpenImagery> openImagery(const std::vector<std::string>& paths,
                                         const terrain::GridFrame& frame, const std::string& crsWkt,
-                                        const ImportControl& control);
+                                        std::uint64_t cacheBytes, const ImportControl& control);
 
 }  // namespace eyrie::import

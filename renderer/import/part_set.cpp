@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "fabric/name_beside.h"
 #include "fabric/partial_file.h"
 #include "fabric/status.h"
 #include "renderer/import/file_hash.h"
@@ -168,7 +169,8 @@ void PartSet::remove() {
         const std::string part = partPath(out_, {index, shards});
         const std::string facts = factsPath(out_, {index, shards});
         const std::string scratch = scratchPath(part, "");  // of a run that was killed
-        for (const std::string& path : {part, facts, scratch, scratch + ".journal"})
+        for (const std::string& path :
+             {part, facts, scratch, fabric::nameBeside(scratch, ".journal")})
             unlink(path.c_str());
         fabric::removeAbandoned(part);
         fabric::removeAbandoned(facts);

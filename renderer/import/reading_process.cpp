@@ -116,51 +116,64 @@ bool readArray(int fd, Array& array, std::uint64_t count) {
     return readAll(fd, array.data(), count * sizeof(array[0]));
 }
 
-/// Textures and images as they cross.
-std::vector<std::byte> packPictures(const TriangleMesh& mesh) {
-    std::vector<std::byte> packed;
-    const auto append = [&packed](const auto& values) {
-        const auto bytes = std::as_bytes(std::span(values));
-        packed.insert(packed.end(), bytes.begin(), bytes.end());
+PictureHeader headerOf(const TextureSource& texture) {
+    return {texture.name.size(), texture.bytes.size(), texture.flags, {}};
+}
+
+PictureHeader headerOf(const mesh::Image& image) {
+    return {0, image.blocks.size(), 0, image.shape};
+}
+
+/// What writePictures() writes.
+std::uint64_t pictureBytesOf(const TriangleMesh& mesh) {
+    std::uint64_t bytes = 0;
+    const auto add = [&bytes](const PictureHeader& header) {
+        bytes += sizeof header + header.nameBytes + header.bytes;
     };
-    const auto add = [&](const PictureHeader& header, const std::string& name,
-                         const std::vector<std::byte>& bytes) {
-        append(std::span(&header, 1));
-        append(name);
-        append(bytes);
+    for (const TextureSource& texture : mesh.textures) add(headerOf(texture));
+    for (const mesh::Image& image : mesh.images) add(headerOf(image));
+    return bytes;
+}
+
+/// One by one: all of them at once, beside those of the mesh, may be too much.
+bool writePictures(int fd, const TriangleMesh& mesh) {
+    const auto writeHeader = [fd](const PictureHeader& header) {
+        return writeAll(fd, &header, sizeof header);
     };
-    for (const TextureSource& texture : mesh.textures)
-        add({texture.name.size(), texture.bytes.size(), texture.flags, {}}, texture.name,
-            texture.bytes);
-    for (const mesh::Image& image : mesh.images)
-        add({0, image.blocks.size(), 0, image.shape}, {}, image.blocks);
-    return packed;
+    return std::ranges::all_of(mesh.textures,
+                               [&](const TextureSource& texture) {
+                                   return writeHeader(headerOf(texture)) &&
+                                          writeArray(fd, texture.name) &&
+                                          writeArray(fd, texture.bytes);
+                               }) &&
+           std::ranges::all_of(mesh.images, [&](const mesh::Image& image) {
+               return writeHeader(headerOf(image)) && writeArray(fd, image.blocks);
+           });
 }
 
 /// False where they are not whole.
-bool unpackPictures(std::span<const std::byte> packed, const ResultHeader& header,
-                    TriangleMesh& mesh) {
+bool readPictures(int fd, const ResultHeader& header, TriangleMesh& mesh) {
+    std::uint64_t left = header.pictureBytes;
     for (std::uint64_t i = 0; i < header.textures + header.images; ++i) {
         PictureHeader picture;
-        if (packed.size() < sizeof picture)
+        if (left < sizeof picture || !readAll(fd, &picture, sizeof picture))
             return false;
-        std::memcpy(&picture, packed.data(), sizeof picture);
-        packed = packed.subspan(sizeof picture);
-        if (picture.nameBytes > packed.size() || picture.bytes > packed.size() - picture.nameBytes)
+        left -= sizeof picture;
+        if (picture.nameBytes > left || picture.bytes > left - picture.nameBytes)
             return false;
-        const auto name = packed.first(picture.nameBytes);
-        const auto bytes = packed.subspan(picture.nameBytes, picture.bytes);
-        packed = packed.subspan(picture.nameBytes + picture.bytes);
+        left -= picture.nameBytes + picture.bytes;
+        TextureSource read{{}, {}, picture.flags};
+        if (!readArray(fd, read.name, picture.nameBytes) ||
+            !readArray(fd, read.bytes, picture.bytes))
+            return false;
         if (i < header.textures)
-            mesh.textures.push_back({{reinterpret_cast<const char*>(name.data()), name.size()},
-                                     {bytes.begin(), bytes.end()},
-                                     picture.flags});
+            mesh.textures.push_back(std::move(read));
         else if (picture.bytes == picture.shape.bytesFrom(0))
-            mesh.images.push_back({picture.shape, {bytes.begin(), bytes.end()}});
+            mesh.images.push_back({picture.shape, std::move(read.bytes)});
         else
             return false;
     }
-    return packed.empty();
+    return left == 0;
 }
 
 bool writeResult(int fd, const absl::StatusOr<TriangleMesh>& result) {
@@ -183,8 +196,7 @@ bool writeResult(int fd, const absl::StatusOr<TriangleMesh>& result) {
     header.materials = result->materials.size();
     header.distantLights = result->lights.distant.size();
     header.pointLights = result->lights.points.size();
-    const std::vector<std::byte> pictures = packPictures(*result);
-    header.pictureBytes = pictures.size();
+    header.pictureBytes = pictureBytesOf(*result);
     header.textures = result->textures.size();
     header.images = result->images.size();
     header.droppedFaces = result->droppedFaces;
@@ -193,7 +205,7 @@ bool writeResult(int fd, const absl::StatusOr<TriangleMesh>& result) {
            writeArray(fd, result->normals) && writeArray(fd, result->colours) &&
            writeArray(fd, result->textureCoordinates) && writeArray(fd, result->materialOf) &&
            writeArray(fd, result->materials) && writeArray(fd, result->lights.distant) &&
-           writeArray(fd, result->lights.points) && writeArray(fd, pictures);
+           writeArray(fd, result->lights.points) && writePictures(fd, *result);
 }
 
 /// False when the file is not as long as its header says.
@@ -218,7 +230,6 @@ absl::StatusOr<TriangleMesh> readResult(int fd, bool& isWhole) {
     ResultHeader header;
     TriangleMesh mesh;
     std::string message, notes;
-    std::vector<std::byte> pictures;
     isWhole =
         lseek(fd, 0, SEEK_SET) == 0 && readAll(fd, &header, sizeof(header)) &&
         hasItsLength(fd, header) && readArray(fd, message, header.messageBytes) &&
@@ -230,8 +241,7 @@ absl::StatusOr<TriangleMesh> readResult(int fd, bool& isWhole) {
         readArray(fd, mesh.materialOf, header.materialOf) &&
         readArray(fd, mesh.materials, header.materials) &&
         readArray(fd, mesh.lights.distant, header.distantLights) &&
-        readArray(fd, mesh.lights.points, header.pointLights) &&
-        readArray(fd, pictures, header.pictureBytes) && unpackPictures(pictures, header, mesh);
+        readArray(fd, mesh.lights.points, header.pointLights) && readPictures(fd, header, mesh);
     if (header.code != 0)
         return absl::Status(static_cast<absl::StatusCode>(header.code), message);
     mesh.droppedFaces = header.droppedFaces;
@@ -341,6 +351,16 @@ ReadingLimits ReadingLimits::forFile(std::uint64_t bytes, std::uint64_t mostMemo
     limits.isMemoryGiven = mostMemory != 0 && mostMemory < limits.memoryBytes;
     if (limits.isMemoryGiven)
         limits.memoryBytes = mostMemory;
+    return limits;
+}
+
+ReadingLimits ReadingLimits::forTextures(std::size_t count) {
+    constexpr std::uint64_t kDecoding = 2ULL << 30;
+    constexpr std::chrono::seconds kTimeEach{20};
+    constexpr mesh::ImageShape kLargest{mesh::kMaxImageSide, mesh::kMaxImageSide, mesh::kHasAlpha};
+    ReadingLimits limits;
+    limits.memoryBytes = kDecoding + count * kLargest.bytesFrom(0);
+    limits.processorTime += count * kTimeEach;
     return limits;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -22,6 +23,8 @@ struct ReadingLimits {
     /// A gigabyte and half a minute, and more for large files: what real ones need ten times over.
     /// Where `mostMemory` is not 0, no more memory than that.
     static ReadingLimits forFile(std::uint64_t bytes, std::uint64_t mostMemory = 0);
+    /// What it takes to decode the largest, and to keep so many as they are coded.
+    static ReadingLimits forTextures(std::size_t count);
 };
 
 /// Calls `read` in a process of its own, a copy of this one, and brings back what it returns.

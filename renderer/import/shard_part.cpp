@@ -14,6 +14,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include "fabric/name_beside.h"
 #include "fabric/status.h"
 #include "fabric/version.h"
 #include "renderer/terrain/tiled_raster.h"
@@ -116,7 +117,7 @@ std::string difference(const PartIdentity& found, const PartIdentity& expected) 
     return "";
 }
 
-std::string partsFolder(const std::string& out) { return out + ".parts"; }
+std::string partsFolder(const std::string& out) { return fabric::nameBeside(out, ".parts"); }
 
 std::string partPath(const std::string& out, const Shard& shard) {
     return fmt::format("{}/shard-{}-of-{}", partsFolder(out), shard.index, shard.count);

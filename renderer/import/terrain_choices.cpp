@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include "fabric/name_beside.h"
 #include "renderer/import/terrain_import.h"
 
 namespace eyrie::import {
@@ -36,6 +37,11 @@ std::uint64_t residentBytes(const HeightSource& posts, bool hasImagery) {
     return kProgram + posts.readingBytes() + (hasImagery ? kImagery : 0) +
            static_cast<std::uint64_t>(posts.frame().columns) *
                static_cast<std::uint64_t>(posts.frame().rows) / kPostsPerByte;
+}
+
+std::uint64_t residentBytes(const HeightSource& posts, const ImagerySource* imagery) {
+    return residentBytes(posts, imagery != nullptr) +
+           (imagery == nullptr ? 0 : imagery->readingBytes());
 }
 
 /// What level 0 may be off at least: where heights are rounded, by half a step for that and half of
@@ -72,9 +78,9 @@ std::vector<std::string> notesOnError(const terrain::HeightLattice& lattice,
                     finest, *errorMetres, lattice.stepMetres)};
 }
 
-std::vector<std::string> notesOnMemory(const HeightSource& posts, bool hasImagery,
+std::vector<std::string> notesOnMemory(const HeightSource& posts, const ImagerySource* imagery,
                                        std::uint64_t memoryBytes) {
-    const std::uint64_t taken = residentBytes(posts, hasImagery) + kLeastScratch;
+    const std::uint64_t taken = residentBytes(posts, imagery) + kLeastScratch;
     if (taken <= memoryBytes)
         return {};
     return {
@@ -104,19 +110,25 @@ std::uint32_t texturesOf(const ImagerySource* imagery) {
                                     static_cast<std::uint32_t>(imagery->pyramid().tilesY(0));
 }
 
-std::uint64_t scratchBytes(const HeightSource& posts, bool hasImagery, std::uint64_t memoryBytes) {
-    const std::uint64_t resident = residentBytes(posts, hasImagery);
+std::uint64_t imageryCacheBytes(const HeightSource& posts, std::uint64_t memoryBytes) {
+    const std::uint64_t resident = residentBytes(posts, true);
+    return memoryBytes > resident ? (memoryBytes - resident) / 3 : 0;
+}
+
+std::uint64_t scratchBytes(const HeightSource& posts, const ImagerySource* imagery,
+                           std::uint64_t memoryBytes) {
+    const std::uint64_t resident = residentBytes(posts, imagery);
     return std::max(kLeastScratch, memoryBytes > resident ? memoryBytes - resident : 0);
 }
 
 std::string scratchPath(const std::string& out, const std::string& folder) {
     namespace fs = std::filesystem;
     if (folder.empty())
-        return out + ".scratch";
+        return fabric::nameBeside(out, ".scratch");
     const std::string whole = fs::absolute(out).lexically_normal().string();
-    return (fs::path(folder) / fmt::format("{}-{:016x}.scratch", fs::path(out).filename().string(),
-                                           XXH64(whole.data(), whole.size(), 0)))
-        .string();
+    return fabric::nameBeside(
+        (fs::path(folder) / fs::path(out).filename()).string(),
+        fmt::format("-{:016x}.scratch", XXH64(whole.data(), whole.size(), 0)));
 }
 
 }  // namespace eyrie::import

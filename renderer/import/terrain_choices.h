@@ -26,7 +26,7 @@ std::vector<std::string> notesOnError(const terrain::HeightLattice& lattice,
                                       const std::optional<double>& errorMetres);
 
 /// What is to be said where an import takes more memory than it was allowed.
-std::vector<std::string> notesOnMemory(const HeightSource& posts, bool hasImagery,
+std::vector<std::string> notesOnMemory(const HeightSource& posts, const ImagerySource* imagery,
                                        std::uint64_t memoryBytes);
 
 /// With empty records of all tiles and pages.
@@ -37,9 +37,14 @@ terrain::EytIndex emptyIndex(const terrain::ElevationModel& model,
 /// Texture tiles of level 0 that imagery has; 0 of null.
 std::uint32_t texturesOf(const ImagerySource* imagery);
 
+/// By what GDAL's cache may grow for pictures, see openImagery: half of what is left to the
+/// scratch.
+std::uint64_t imageryCacheBytes(const HeightSource& posts, std::uint64_t memoryBytes);
+
 /// Bytes of a scratch's memory, so that the whole process takes about `memoryBytes`, or as little
 /// more as it can.
-std::uint64_t scratchBytes(const HeightSource& posts, bool hasImagery, std::uint64_t memoryBytes);
+std::uint64_t scratchBytes(const HeightSource& posts, const ImagerySource* imagery,
+                           std::uint64_t memoryBytes);
 
 /// The scratch file for what becomes `out`: beside it, or in `folder` unless that is empty.
 std::string scratchPath(const std::string& out, const std::string& folder);

@@ -87,7 +87,7 @@ public:
           options_(options),
           control_(control),
           scratch_(scratchPath(out, options.scratchFolder),
-                   scratchBytes(posts, !options.imagery.empty(), options.memoryBytes)),
+                   scratchBytes(posts, imagery, options.memoryBytes)),
           model_(emptyModel(posts.frame(), scratch_)),
           levels_(terrain::Quadtree(static_cast<std::uint32_t>(model_.frame.columns),
                                     static_cast<std::uint32_t>(model_.frame.rows))
@@ -184,9 +184,8 @@ private:
         }
         ASSIGN_OR_RETURN(const std::uint64_t sizeBytes, writer.commit(index));
         TerrainImportReport report = reportOf(index, postMetres, sizeBytes);
-        for (const auto& notes :
-             {notesOnError(lattice, options_.errorMetres),
-              notesOnMemory(posts_, !options_.imagery.empty(), options_.memoryBytes)})
+        for (const auto& notes : {notesOnError(lattice, options_.errorMetres),
+                                  notesOnMemory(posts_, imagery_, options_.memoryBytes)})
             report.notes.insert(report.notes.end(), notes.begin(), notes.end());
         return report;
     }
@@ -220,7 +219,8 @@ absl::StatusOr<TerrainImportReport> importTerrain(HeightSource& posts, const Ter
     OpenImagery imagery;
     if (!options.imagery.empty()) {
         ASSIGN_OR_RETURN(imagery,
-                         openImagery(options.imagery, posts.frame(), source.crsWkt, control));
+                         openImagery(options.imagery, posts.frame(), source.crsWkt,
+                                     imageryCacheBytes(posts, options.memoryBytes), control));
     }
     std::optional<PartSet> parts;
     if (options.mergesParts) {

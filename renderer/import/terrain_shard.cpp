@@ -48,7 +48,7 @@ public:
                                pictureFingerprint(options.imagery), shard.count)),
           path_(partPath(out, shard)),
           scratch_(scratchPath(path_, options.scratchFolder),
-                   scratchBytes(posts, imagery != nullptr, options.memoryBytes)),
+                   scratchBytes(posts, imagery, options.memoryBytes)),
           model_(emptyModel(posts.frame(), scratch_)),
           heights_(model_, scratch_, 1),
           normals_(model_, scratch_, 1),
@@ -94,7 +94,7 @@ private:
                 plan_.texturesOf(shard_.index).size(),
                 sizeBytes,
                 wasThere,
-                notesOnMemory(posts_, imagery_ != nullptr, options_.memoryBytes)};
+                notesOnMemory(posts_, imagery_, options_.memoryBytes)};
     }
 
     absl::Status read() {
@@ -221,7 +221,8 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(HeightSource& posts,
     OpenImagery imagery;
     if (!options.imagery.empty()) {
         ASSIGN_OR_RETURN(imagery,
-                         openImagery(options.imagery, posts.frame(), source.crsWkt, control));
+                         openImagery(options.imagery, posts.frame(), source.crsWkt,
+                                     imageryCacheBytes(posts, options.memoryBytes), control));
     }
     RETURN_IF_ERROR(makeFolder(partsFolder(out)));
     ASSIGN_OR_RETURN(

@@ -9,12 +9,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "fabric/name_beside.h"
 #include "fabric/status.h"
 
 namespace eyrie::import {
 namespace {
 
-std::string journalPath(const std::string& scratchPath) { return scratchPath + ".journal"; }
+std::string journalPath(const std::string& scratchPath) {
+    return fabric::nameBeside(scratchPath, ".journal");
+}
 
 }  // namespace
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -37,9 +36,6 @@ namespace eyrie::import {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uint64_t kMostBytes = 2ULL << 30;  ///< of all images while they are read
-constexpr std::chrono::seconds kTimeEach{20};
 
 constexpr float kCutoff = 0.5F;  ///< of materials whose source gives none
 /// Alphas between count as half see-through.
@@ -308,10 +304,8 @@ absl::Status loadTextures(TriangleMesh& mesh, const std::string& path,
     if (mesh.materials.empty())
         return absl::OkStatus();
     if (!mesh.textures.empty()) {
-        ReadingLimits limits;
-        limits.memoryBytes = kMostBytes;
-        limits.processorTime += mesh.textures.size() * kTimeEach;
-        auto loaded = readInOwnProcess([&] { return Loading(mesh, path).run(); }, limits, control);
+        auto loaded = readInOwnProcess([&] { return Loading(mesh, path).run(); },
+                                       ReadingLimits::forTextures(mesh.textures.size()), control);
         RETURN_IF_ERROR(control.check());
         if (loaded.ok()) {
             mesh.materials = std::move(loaded->materials);

@@ -28,6 +28,9 @@ public:
     absl::Status writeAt(std::uint64_t offset, std::span<const std::byte> bytes);
     std::uint64_t sizeBytes() const { return size_; }
 
+    /// Where it is until then, for libraries that write by name.
+    const std::string& partialPath() const { return partialPath_; }
+
     /// Flushes to disk and renames.
     absl::Status commit();
 

@@ -17,6 +17,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "fabric/name_beside.h"
 #include "fabric/partial_file.h"
 #include "fabric/replaceable.h"
 #include "fabric/status.h"
@@ -79,7 +80,7 @@ absl::Status OutputFile::check(const std::string& path) {
 }
 
 absl::StatusOr<OutputFile> OutputFile::createUnnamed(const std::string& path) {
-    std::string name = path + ".scratch-XXXXXX";
+    std::string name = fabric::nameBeside(path, ".scratch-XXXXXX");
     const int fd = ::mkostemp(name.data(), O_CLOEXEC);
     if (fd < 0)
         return fabric::writeError(path, "cannot create a scratch file beside it", errno);

@@ -14,6 +14,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include "fabric/name_beside.h"
 #include "fabric/partial_file.h"
 #include "fabric/replaceable.h"
 #include "fabric/status.h"
@@ -163,7 +164,7 @@ absl::StatusOr<EytWriter> EytWriter::create(const std::string& path) {
 
 absl::StatusOr<EytWriter> EytWriter::resume(const std::string& path) {
     RETURN_IF_ERROR(fabric::checkReplaceable(path));
-    std::string partialPath = path + ".partial";
+    std::string partialPath = fabric::nameBeside(path, ".partial");
     // Never through a link: what that leads to is somebody else's.
     const int fd = open(partialPath.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
     if (fd < 0)
@@ -179,7 +180,7 @@ absl::StatusOr<EytWriter> EytWriter::resume(const std::string& path) {
 }
 
 void EytWriter::removeUnfinished(const std::string& path) {
-    const std::string partialPath = path + ".partial";
+    const std::string partialPath = fabric::nameBeside(path, ".partial");
     const int fd = open(partialPath.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC);
     if (fd < 0)
         return;

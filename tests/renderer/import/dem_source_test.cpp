@@ -14,9 +14,11 @@
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
 
+#include "fabric/partial_file.h"
 #include "renderer/import/gdal_handles.h"
 #include "renderer/import/geotiff_writer.h"
 #include "renderer/import/terrain_synth.h"
+#include "renderer/import/whole_file.h"
 #include "tests/renderer/import/terrain_fixture.h"
 
 namespace eyrie::import {
@@ -353,6 +355,24 @@ TEST_F(DemSource, CallsATruncatedFileUnreadable) {
     ASSERT_TRUE(writeGeoTiff(synthesizeTerrain(200, 1), path).ok());
     std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
     EXPECT_FALSE(test::readDem(path).ok());
+}
+
+TEST_F(DemSource, WrittenAnewRemovesWhatAKilledWriterLeft) {
+    const std::string path = folder_.path("a.tif");
+    std::ofstream(path + ".partial-0123456789abcdef") << "half";
+    ASSERT_TRUE(writeGeoTiff(synthesizeTerrain(200, 1), path).ok());
+    EXPECT_EQ(folder_.files(), std::vector<std::string>{"a.tif"});
+}
+
+TEST_F(DemSource, KeepsItsLockWhileGdalWritesIt) {
+    const std::string path = folder_.path("a.tif");
+    auto file = WholeFile::create(path);
+    ASSERT_TRUE(file.ok()) << file.status();
+    GDALClose(GDALCreate(GDALGetDriverByName("GTiff"), file->partialPath().c_str(), 100, 100, 1,
+                         GDT_Float32, nullptr));
+    fabric::removeAbandoned(path);
+    ASSERT_TRUE(file->commit().ok());
+    EXPECT_GT(std::filesystem::file_size(path), 100U);
 }
 
 TEST_F(DemSource, WritesNothingBesideCompressedFiles) {

@@ -35,6 +35,22 @@ TEST(ReadingProcess, BringsBackAllOfAMesh) {
     EXPECT_EQ(*read, mesh);
 }
 
+TEST(ReadingProcess, TakesMemoryForItsPicturesOnce) {
+    constexpr std::uint64_t kImages = 12;
+    const mesh::ImageShape shape{4096, 4096, 0};
+    const auto read = [&] {
+        TriangleMesh mesh;
+        for (std::uint64_t i = 0; i < kImages; ++i)
+            mesh.images.push_back({shape, std::vector<std::byte>(shape.bytesFrom(0))});
+        return mesh;
+    };
+    constexpr std::uint64_t kBeside = 64 << 20;
+    const auto mesh = readInOwnProcess(
+        read, {kImages * shape.bytesFrom(0) + kBeside, std::chrono::seconds(60)}, {});
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_EQ(mesh->images.size(), kImages);
+}
+
 TEST(ReadingProcess, BringsBackAnError) {
     const absl::Status status = statusOf([] { return absl::NotFoundError("no such thing"); });
     EXPECT_EQ(status, absl::NotFoundError("no such thing"));
@@ -96,6 +112,12 @@ TEST(ReadingLimits, GrowWithTheFile) {
     EXPECT_GE(ReadingLimits::forFile(0).memoryBytes, 1ULL << 30);
     EXPECT_GE(ReadingLimits::forFile(1ULL << 30).memoryBytes, 64ULL << 30);
     EXPECT_GT(ReadingLimits::forFile(~0ULL).memoryBytes, 64ULL << 30);
+}
+
+TEST(ReadingLimits, HaveRoomForEveryTexture) {
+    const mesh::ImageShape largest{mesh::kMaxImageSide, mesh::kMaxImageSide, mesh::kHasAlpha};
+    EXPECT_GE(ReadingLimits::forTextures(100).memoryBytes,
+              (1ULL << 30) + 100 * largest.bytesFrom(0));
 }
 
 }  // namespace

@@ -77,6 +77,21 @@ TEST_F(TerrainResume, GivesTheSameBytesAfterAnAbortInEachStage) {
     }
 }
 
+TEST_F(TerrainResume, MayHaveTheLongestNameBesideOnesThatAreNearlyTheSame) {
+    const std::string first = folder_.path(std::string(250, 'a') + "1.eyt");
+    const std::string second = folder_.path(std::string(250, 'a') + "2.eyt");
+    for (const std::string& out : {first, second})
+        EXPECT_EQ(importUntil("thinning", out).code(), absl::StatusCode::kCancelled);
+    for (const std::string& out : {first, second}) {
+        const absl::Status status = importUntil("never", out);
+        ASSERT_TRUE(status.ok()) << status;
+        EXPECT_EQ(begun_.front(), "thinning");
+    }
+    EXPECT_EQ(folder_.files().size(), 2U);
+    const std::string how = folder_.path(std::string(251, 'b') + ".eyt");
+    EXPECT_TRUE(import(how, {}, {.memoryBytes = 1, .scratchFolder = folder_.path("")}).ok());
+}
+
 TEST_F(TerrainResume, MakesPagesAnewThatAreNotInThePartialFileAsTheyWere) {
     const std::string whole = folder_.path("whole.eyt");
     ASSERT_TRUE(import(whole, {}, {}).ok());

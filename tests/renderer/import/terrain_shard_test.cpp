@@ -38,7 +38,7 @@ constexpr TerrainImportOptions kMerge = {.mergesParts = true};
 
 class TerrainShards : public testing::Test {
 protected:
-    std::string out() const { return folder_.path("out.eyt"); }
+    std::string out() const { return folder_.path(name_); }
 
     static TerrainSource source(std::uint64_t hash = 7) { return {"grid", "", hash}; }
 
@@ -72,6 +72,7 @@ protected:
     }
 
     test::TemporaryFolder folder_;
+    std::string name_ = "out.eyt";
 };
 
 /// Six squares of 512 cells, two of them whole.
@@ -103,6 +104,16 @@ TEST_F(TerrainShards, MakeTheSameBytesAsOneImport) {
         EXPECT_FALSE(std::filesystem::exists(partsFolder(out()))) << count;
         std::filesystem::remove(out());
     }
+}
+
+TEST_F(TerrainShards, MayMakeAFileOfTheLongestName) {
+    const terrain::HeightGrid posts = grid();
+    const std::string expected = whole(posts);
+    name_.insert(0, 255 - name_.size(), 'a');
+    const absl::Status status = sharded(posts, 2, {.memoryBytes = 1});
+    ASSERT_TRUE(status.ok()) << status;
+    EXPECT_TRUE(contents(out()) == expected);
+    EXPECT_EQ(folder_.files().size(), 2U);
 }
 
 TEST_F(TerrainShards, MakeTheSameBytesWithHolesAnErrorAndLittleMemory) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -17,6 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "fabric/partial_file.h"
 #include "renderer/mesh/mapped_file.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
@@ -190,6 +192,23 @@ TEST(OutputFile, RemovesWhatAKilledWriterOfTheSameLeft) {
     ASSERT_TRUE(OutputFile::create(folder.file("out")).ok());
     EXPECT_FALSE(std::filesystem::exists(folder.file("out.partial-0123456789abcdef")));
     EXPECT_TRUE(std::filesystem::exists(folder.file("other.partial-0123456789abcdef")));
+}
+
+TEST(OutputFile, MayHaveTheLongestName) {
+    const test::TemporaryFolder folder;
+    const std::string name = std::string(250, 'a');
+    for (const char* end : {".eym1", ".eym2"}) {  // alike but for the end
+        auto killed = fabric::createPartial(folder.file(name + end));
+        ASSERT_TRUE(killed.ok()) << killed.status();
+        ::close(killed->fd);
+    }
+    auto out = OutputFile::create(folder.file(name + ".eym1"));
+    ASSERT_TRUE(out.ok()) << out.status();
+    ASSERT_TRUE(out->write(bytesOf("new")).ok() && out->commit().ok());
+    EXPECT_EQ(test::readFile(folder.file(name + ".eym1")), "new");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.file("")), {}), 2)
+        << "itself, and what a writer of the other left";
+    EXPECT_TRUE(OutputFile::createUnnamed(folder.file(name + ".eym1")).ok());
 }
 
 TEST(MappedFile, RefusesWhatIsNoFileWithoutWaiting) {
