@@ -133,7 +133,7 @@ bool FramePipeline::hasIdleRenderer() const {
 
 absl::StatusOr<DrawnFrame> FramePipeline::draw(const PlannedFrame& frame,
                                                const std::function<void()>& handedOut) {
-    if (frame.byPrograms && programs_.mayDraw()) {
+    if (frame.byPrograms && programs_.mayDraw(frame)) {
         absl::StatusOr<DrawnFrame> drawn = programs_.draw(frame, handedOut);
         if (drawn.ok() || frame.request.stop.stop_requested())
             return drawn;

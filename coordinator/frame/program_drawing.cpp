@@ -11,6 +11,7 @@
 #include "coordinator/observe/stage_timer.h"
 #include "fabric/log.h"
 #include "fabric/status.h"
+#include "wire/local_address.h"
 
 namespace eyrie::coordinator {
 namespace {
@@ -42,9 +43,43 @@ std::vector<ActiveConfiguration::Taken> takenByAll(const PlannedFrame& frame,
 ProgramDrawing::ProgramDrawing(const Options& options, Crew& crew)
     : options_(options), crew_(crew), patience_(options.patience) {}
 
-bool ProgramDrawing::mayDraw() const {
-    const std::lock_guard lock(mutex_);
-    return Clock::now() >= restsUntil_;
+bool ProgramDrawing::mayDraw(const PlannedFrame& frame) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (Clock::now() < restsUntil_)
+            return false;
+    }
+    return allReachEachOther(frame);
+}
+
+/// Addresses are those by which the coordinator reaches renderers. One that leads to its own
+/// machine leads others elsewhere.
+bool ProgramDrawing::allReachEachOther(const PlannedFrame& frame) {
+    const std::vector<std::string> addresses = addressesOf(frame);
+    const std::vector<compound::PlannedProgram>& programs = frame.byPrograms->exchange.programs;
+    for (std::size_t i = 0; i < programs.size(); ++i)
+        for (const auto& taker : programs[i].takers) {
+            if (!taker || !wire::leadsToOwnMachine(addresses[*taker]) ||
+                wire::leadsToOwnMachine(addresses[i]))
+                continue;
+            const std::lock_guard lock(mutex_);
+            if (told_.insert(addresses[*taker]).second)
+                spdlog::warn(
+                    "the renderer at {} cannot be reached by that at {}, which has pictures for "
+                    "it: they are put together here; start it with --listen at an address that "
+                    "other machines reach, or with --listen 0.0.0.0:PORT and a --coordinator that "
+                    "they reach",
+                    addresses[*taker], addresses[i]);
+            return false;
+        }
+    return true;
+}
+
+std::vector<std::string> ProgramDrawing::addressesOf(const PlannedFrame& frame) const {
+    std::vector<std::string> addresses;
+    for (const std::size_t each : frame.byPrograms->renderers)
+        addresses.push_back(crew_.addressOf(frame.members[each]->id()));
+    return addresses;
 }
 
 std::chrono::milliseconds ProgramDrawing::patienceWith(std::uint64_t kind) const {
@@ -74,11 +109,7 @@ absl::StatusOr<DrawnFrame> ProgramDrawing::tryToDraw(const PlannedFrame& frame,
                                                      const std::function<void()>& handedOut) {
     const PlannedFrame::ByPrograms& programs = *frame.byPrograms;
     std::vector<std::shared_ptr<Member>> renderers;
-    std::vector<std::string> addresses;
-    for (const std::size_t each : programs.renderers) {
-        renderers.push_back(frame.members[each]);
-        addresses.push_back(crew_.addressOf(renderers.back()->id()));
-    }
+    for (const std::size_t each : programs.renderers) renderers.push_back(frame.members[each]);
     const std::chrono::milliseconds timeout = patienceWith(frame.kind);
     const std::uint64_t session = sessionOf(frame.scene.revision);
     const auto started = Clock::now();
@@ -90,7 +121,7 @@ absl::StatusOr<DrawnFrame> ProgramDrawing::tryToDraw(const PlannedFrame& frame,
             {frame.frameData, frame.scene.revision, session, frame.scene.scene->background,
              frame.request.completeness, frame.request.measuresStages, timeout, handedOut,
              options_.freed, frame.request.stop},
-            renderers, addresses);
+            renderers, addressesOf(frame));
     });
     Dispatch::Plan others =
         dispatchOf(frame, programs.others, programs.takers, patienceWith(frame.kind));

@@ -6,6 +6,9 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <string>
+#include <vector>
 
 #include <absl/status/statusor.h>
 
@@ -34,9 +37,9 @@ public:
     /// `crew` outlives it.
     ProgramDrawing(const Options& options, Crew& crew);
 
-    /// Whether a frame that can be is to be drawn so: renderers may be dying when one has just
-    /// failed.
-    bool mayDraw() const;
+    /// Whether a frame that has programs is to be drawn so: renderers may be dying when one has
+    /// just failed, and all have to reach those whom they send pictures.
+    bool mayDraw(const PlannedFrame& frame);
 
     /// Precondition: `frame` has programs. Whatever it fails with, the frame can be drawn without.
     /// `handedOut` is called when the renderers have been given them.
@@ -48,6 +51,8 @@ public:
     std::chrono::milliseconds patienceWith(std::uint64_t kind) const;
 
 private:
+    bool allReachEachOther(const PlannedFrame& frame);
+    std::vector<std::string> addressesOf(const PlannedFrame& frame) const;
     absl::StatusOr<DrawnFrame> tryToDraw(const PlannedFrame& frame,
                                          const std::function<void()>& handedOut);
     std::uint64_t sessionOf(std::uint64_t revision);
@@ -59,6 +64,7 @@ private:
     std::uint64_t session_ = 0;  ///< of the scene of that revision: other coordinators have others
     Patience patience_;
     Clock::time_point restsUntil_{};  ///< since a frame failed
+    std::set<std::string> told_;      ///< addresses that others do not reach, of which the log has
 };
 
 }  // namespace eyrie::coordinator
