@@ -16,9 +16,6 @@
 namespace eyrie::coordinator {
 namespace {
 
-/// How long programs are left alone after one has failed.
-constexpr std::chrono::seconds kRest{2};
-
 std::uint64_t newSession() {
     std::random_device random;
     return (std::uint64_t{random()} << 32 | random()) | 1;  // not 0
@@ -46,7 +43,7 @@ ProgramDrawing::ProgramDrawing(const Options& options, Crew& crew)
 bool ProgramDrawing::mayDraw(const PlannedFrame& frame) {
     {
         const std::lock_guard lock(mutex_);
-        if (Clock::now() < restsUntil_)
+        if (!rest_.isOver(Clock::now()))
             return false;
     }
     return allReachEachOther(frame);
@@ -97,12 +94,21 @@ std::uint64_t ProgramDrawing::sessionOf(std::uint64_t revision) {
 absl::StatusOr<DrawnFrame> ProgramDrawing::draw(const PlannedFrame& frame,
                                                 const std::function<void()>& handedOut) {
     absl::StatusOr<DrawnFrame> drawn = tryToDraw(frame, handedOut);
-    if (!drawn.ok() && !frame.request.stop.stop_requested()) {
+    if (!drawn.ok() && frame.request.stop.stop_requested())
+        return drawn;
+    if (!drawn.ok())
         spdlog::warn("frame {} is put together here: {}", frame.number, drawn.status().ToString());
-        const std::lock_guard lock(mutex_);
-        restsUntil_ = Clock::now() + kRest;
-    }
+    const std::lock_guard lock(mutex_);
+    if (drawn.ok())
+        rest_.succeeded();
+    else
+        rest_.failed(Clock::now());
     return drawn;
+}
+
+void ProgramDrawing::drawnWithout(std::uint64_t kind, std::chrono::milliseconds taken) {
+    const std::lock_guard lock(mutex_);
+    patience_.record(kind, taken, taken);
 }
 
 absl::StatusOr<DrawnFrame> ProgramDrawing::tryToDraw(const PlannedFrame& frame,
@@ -130,8 +136,7 @@ absl::StatusOr<DrawnFrame> ProgramDrawing::tryToDraw(const PlannedFrame& frame,
     others.telemetry = options_.telemetry;
     auto drawn = std::make_shared<Dispatch>(std::move(others))->run(crew_);
     absl::StatusOr<ProgramRuns::Result> ran = running.get();
-    if ((ran.ok() && drawn.ok()) || absl::IsDeadlineExceeded(ran.status())) {
-        // Of what is not done in time so much is known: it takes as long at least.
+    if (ran.ok() && drawn.ok()) {
         const std::lock_guard lock(mutex_);
         patience_.record(
             frame.kind, timeout,

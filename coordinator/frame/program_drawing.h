@@ -17,6 +17,7 @@
 #include "coordinator/frame/crew.h"
 #include "coordinator/frame/patience.h"
 #include "coordinator/frame/planned_frame.h"
+#include "coordinator/frame/program_rest.h"
 #include "coordinator/observe/telemetry.h"
 
 namespace eyrie::coordinator {
@@ -46,6 +47,10 @@ public:
     absl::StatusOr<DrawnFrame> draw(const PlannedFrame& frame,
                                     const std::function<void()>& handedOut);
 
+    /// A frame whose programs were not done in time was drawn by the coordinator in `taken`. Of the
+    /// programs nothing is known: they may never have come to an end.
+    void drawnWithout(std::uint64_t kind, std::chrono::milliseconds taken);
+
     /// How long frames of `kind` may take, where that is known: what renderers did among themselves
     /// took as long as what they do for the coordinator will.
     std::chrono::milliseconds patienceWith(std::uint64_t kind) const;
@@ -63,8 +68,8 @@ private:
     std::uint64_t revision_ = 0;
     std::uint64_t session_ = 0;  ///< of the scene of that revision: other coordinators have others
     Patience patience_;
-    Clock::time_point restsUntil_{};  ///< since a frame failed
-    std::set<std::string> told_;      ///< addresses that others do not reach, of which the log has
+    ProgramRest rest_;
+    std::set<std::string> told_;  ///< addresses that others do not reach, of which the log has
 };
 
 }  // namespace eyrie::coordinator

@@ -82,9 +82,12 @@ public:
         for (const fabric::ProgramStage& stage : program.stages)
             RETURN_IF_ERROR(carryOut(stage, program, deadline, stop, buffer, result));
         std::unique_lock lock(mutex_);
-        changed_.wait_until(lock, stop, deadline, [this] { return !holdsAnswers_ || cancelled_; });
+        const bool isAnswered = changed_.wait_until(
+            lock, stop, deadline, [this] { return !holdsAnswers_ || cancelled_; });
         if (cancelled_ || stop.stop_requested())
             return absl::CancelledError("cancelled");
+        if (!isAnswered)
+            return absl::DeadlineExceededError("the answer is held");
         return result;
     }
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest&, Clock::time_point) override {
@@ -156,7 +159,8 @@ private:
 
 class ProgramDrawingTest : public FramePipelineTest {
 protected:
-    ProgramDrawingTest() : FramePipelineTest(std::chrono::seconds(20)) {}
+    explicit ProgramDrawingTest(std::chrono::milliseconds patience = std::chrono::seconds(20))
+        : FramePipelineTest(patience) {}
 
     using Renderers = std::vector<std::shared_ptr<ExchangingRenderer>>;
 
@@ -281,6 +285,35 @@ TEST_P(ProgramDrawingTest, ARendererThatLeavesFinishesItsProgram) {
     EXPECT_TRUE(drawn->image == layers_->whole(kWidth, kHeight));
     for (const auto& one : renderers) EXPECT_EQ(one->channels, 0) << "drawn without programs";
     EXPECT_TRUE(eventually([&] { return registry_.entries().size() == 1; }));
+}
+
+/// Where programs are given up after half a second while nothing is known of frames.
+class ImpatientProgramsTest : public ProgramDrawingTest {
+protected:
+    ImpatientProgramsTest() : ProgramDrawingTest(std::chrono::milliseconds(500)) {}
+
+    /// What the next frame takes for which a renderer begins a program.
+    Registry::Clock::duration nextTry(const ExchangingRenderer& renderer) {
+        const int before = renderer.programs;
+        Registry::Clock::duration taken{};
+        EXPECT_TRUE(eventually([&] {
+            const auto start = Registry::Clock::now();
+            const bool isDrawn = pipeline_.renderFrame(request()).ok();
+            taken = Registry::Clock::now() - start;
+            return isDrawn && renderer.programs > before;
+        }));
+        return taken;
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Of, ImpatientProgramsTest, testing::Values("direct-send"),
+                         [](const auto& of) { return test::identifier(of.param); });
+
+TEST_P(ImpatientProgramsTest, ProgramsThatAreNeverAnsweredAreNotWaitedForLongerEachTime) {
+    const auto renderers = added({"fake:0", "fake:1"});
+    for (const auto& one : renderers) one->holdAnswers(true);
+    for (int i = 0; i < 2; ++i)
+        EXPECT_LT(nextTry(*renderers[0]), std::chrono::milliseconds(1300)) << "try " << i;
 }
 
 TEST_P(ProgramDrawingTest, WhatRenderersCannotSendEachOtherIsPutTogetherHere) {
