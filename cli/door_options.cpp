@@ -4,11 +4,11 @@
 #include <string_view>
 #include <utility>
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include "fabric/log.h"
 #include "fabric/status.h"
+#include "wire/local_address.h"
 
 namespace eyrie::cli {
 namespace {
@@ -16,12 +16,6 @@ namespace {
 /// The error that the command line is answered with, whatever it was for the file.
 absl::Status ofOption(const absl::Status& status, std::string_view option) {
     return fabric::withContext(absl::InvalidArgumentError(status.message()), option);
-}
-
-std::string hostOf(std::string_view address) {
-    if (address.starts_with('['))
-        return std::string(address.substr(1, address.find(']') - 1));
-    return std::string(address.substr(0, address.rfind(':')));
 }
 
 absl::StatusOr<std::optional<access::TlsFiles>> tlsOf(const access::TlsFiles& files) {
@@ -97,7 +91,7 @@ absl::StatusOr<Doors> doorsOf(const DoorOptions& options) {
 }
 
 absl::Status checkWebDoor(const Doors& doors, const std::string& listen, std::string_view option) {
-    if (isLocal(listen))
+    if (wire::isLocal(listen))
         return absl::OkStatus();
     if (doors.gate == nullptr && !doors.insecure)
         return refuse(option, listen, "give tokens with --token-file FILE");
@@ -116,7 +110,7 @@ absl::Status checkGrpcDoor(const Doors& doors, const std::string& listen, std::s
     if (doors.gate != nullptr && doors.gate->tokenOf(access::Role::Admin).empty())
         return absl::InvalidArgumentError(
             "--token-file: coordinator and renderers need a token of role admin in it");
-    if (isLocal(listen))
+    if (wire::isLocal(listen))
         return absl::OkStatus();
     const bool isMutual = doors.tls && !doors.tls->authority.empty();
     if (doors.gate == nullptr && !isMutual && !doors.insecure)
@@ -131,19 +125,6 @@ absl::Status checkGrpcDoor(const Doors& doors, const std::string& listen, std::s
             "--tls-cert, --tls-key and --tls-ca",
             option, listen);
     return absl::OkStatus();
-}
-
-bool isLocal(std::string_view address) {
-    if (address.starts_with("unix:"))
-        return true;
-    const std::string host = hostOf(address);
-    in_addr v4{};
-    in6_addr v6{};
-    if (inet_pton(AF_INET, host.c_str(), &v4) == 1)
-        return ntohl(v4.s_addr) >> 24 == 127;
-    if (inet_pton(AF_INET6, host.c_str(), &v6) == 1)
-        return IN6_IS_ADDR_LOOPBACK(&v6);
-    return host == "localhost";
 }
 
 }  // namespace eyrie::cli

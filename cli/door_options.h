@@ -50,8 +50,4 @@ absl::Status checkWebDoor(const Doors& doors, const std::string& listen, std::st
 /// The same of a gRPC address, where certificates of an authority do, too.
 absl::Status checkGrpcDoor(const Doors& doors, const std::string& listen, std::string_view option);
 
-/// Whether only this machine reaches `address`: "localhost:1", "127.0.0.1:1", "[::1]:1",
-/// "unix:/path".
-bool isLocal(std::string_view address);
-
 }  // namespace eyrie::cli

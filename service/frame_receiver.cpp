@@ -33,6 +33,7 @@ absl::Status FrameReceiver::take() {
 absl::Status FrameReceiver::begin(const v1::FrameHeader& header) {
     if (pixels_)
         return absl::InvalidArgumentError("a second header came amid a picture");
+    RETURN_IF_ERROR(mailbox_.checkAddress(header.to()));
     ASSIGN_OR_RETURN(const wire::AnnouncedPicture picture,
                      wire::announcedPicture(header, kAnywhere, false));
     ASSIGN_OR_RETURN(Mailbox::Arrival arrival,

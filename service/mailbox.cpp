@@ -36,6 +36,21 @@ Mailbox::Mailbox(const Limits& limits)
 
 Mailbox::~Mailbox() = default;
 
+void Mailbox::setAddress(std::string address) {
+    const std::lock_guard lock(mutex_);
+    address_ = std::move(address);
+}
+
+absl::Status Mailbox::checkAddress(const std::string& to) const {
+    const std::lock_guard lock(mutex_);
+    if (address_.empty() || to == address_)
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(fmt::format(
+        "a picture for another renderer came to the one at {}; start renderers with --listen at "
+        "addresses that lead to them from everywhere",
+        address_));
+}
+
 absl::Status Mailbox::announce(const FrameKey& key, const fabric::PixelViewport& area,
                                bool wantsDepth) {
     const std::lock_guard lock(mutex_);

@@ -70,6 +70,13 @@ public:
     Mailbox(const Mailbox&) = delete;
     Mailbox& operator=(const Mailbox&) = delete;
 
+    /// Where others reach it from now on.
+    void setAddress(std::string address);
+
+    /// InvalidArgument for what is sent to another address: it leads here by mistake. What is for
+    /// whom is not known before setAddress.
+    absl::Status checkAddress(const std::string& to) const;
+
     /// A program is going to await this picture: within `area`, with depth if `wantsDepth`.
     /// AlreadyExists when another one is; InvalidArgument when it has come and is not like that.
     absl::Status announce(const FrameKey& key, const fabric::PixelViewport& area, bool wantsDepth);
@@ -112,6 +119,7 @@ private:
     const Limits limits_;
     mutable std::mutex mutex_;  ///< guards what follows, up to the thread
     std::condition_variable_any changed_;
+    std::string address_;
     Slots slots_;
     std::uint64_t bytesHeld_ = 0;
     std::size_t unannounced_ = 0;  ///< slots

@@ -31,13 +31,15 @@ struct Peers::Connection {
 namespace {
 
 /// Stops early where the peer has ended the call; Finish then says why.
-void write(grpc::ClientWriter<v1::PutFrameRequest>& writer, const FrameKey& key,
-           const fabric::Image& image, wire::PixelEncoding encoding) {
+void write(grpc::ClientWriter<v1::PutFrameRequest>& writer, const std::string& address,
+           const FrameKey& key, const fabric::Image& image) {
+    const wire::PixelEncoding encoding = wire::encodingFor(address, image.hasDepth());
     v1::PutFrameRequest message;
     v1::FrameHeader& header = *message.mutable_header();
     header.set_session(key.session);
     header.set_frame_number(key.frameNumber);
     header.set_frame(key.frame);
+    header.set_to(address);
     wire::describe(image, encoding, header);
     bool goesOn = writer.Write(message);
     for (wire::PictureWriter pixels(image, encoding); goesOn && !pixels.isDone();) {
@@ -63,7 +65,7 @@ absl::Status Peers::send(const std::string& address, const FrameKey& key,
     const std::stop_callback cancel(stop, [&] { context.TryCancel(); });
     v1::PutFrameResponse response;
     const auto writer = connection->stub->PutFrame(&context, &response);
-    write(*writer, key, image, wire::encodingFor(address, image.hasDepth()));
+    write(*writer, address, key, image);
     return wire::fromGrpc(writer->Finish(), fmt::format("renderer at {}", address));
 }
 

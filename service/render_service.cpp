@@ -109,13 +109,15 @@ grpc::ServerUnaryReactor* RenderService::OpenScene(grpc::CallbackServerContext* 
     if (status.ok())
         status = scene.status();
     if (status.ok())
-        status = thread_.post(
-            [this, scene = *std::move(scene), response, reactor](ChannelDrawer& drawer) {
-                const absl::Status opened = openScene(drawer, scene, picks_, *response);
-                if (opened.ok())
-                    background_ = scene.background;
-                reactor->Finish(wire::toGrpc(opened));
-            });
+        status = thread_.post([this, scene = *std::move(scene), address = request->address(),
+                               response, reactor](ChannelDrawer& drawer) {
+            const absl::Status opened = openScene(drawer, scene, picks_, *response);
+            if (opened.ok()) {
+                background_ = scene.background;
+                exchange_.mailbox().setAddress(address);
+            }
+            reactor->Finish(wire::toGrpc(opened));
+        });
     if (!status.ok())
         reactor->Finish(wire::toGrpc(status));
     return reactor;

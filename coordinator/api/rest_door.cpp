@@ -190,11 +190,26 @@ RestAnswer document(const RestRequest& request) {
     return answer;
 }
 
+bool reads(const RestRequest& request) {
+    return request.method == "GET" || request.method == "HEAD";
+}
+
+RestAnswer notDone(const RestRequest& request, const std::string& allowed) {
+    RestAnswer answer =
+        problem(absl::UnimplementedError(fmt::format("{} is not done here; this path has {}",
+                                                     request.method.substr(0, 16), allowed)),
+                405);
+    answer.headers.emplace_back("Allow", allowed);
+    return answer;
+}
+
 /// What there is, for people.
-RestAnswer page(std::string_view path) {
+RestAnswer page(const RestRequest& request, std::string_view path) {
     const bool isStyle = path == kApiStylePath;
     if (!isStyle && path != "/api" && path != "/api/")
         return problem(absl::NotFoundError("there is nothing at this path; see /api"), 404);
+    if (!reads(request))
+        return notDone(request, "GET");
     RestAnswer answer;
     answer.contentType = isStyle ? "text/css; charset=utf-8" : "text/html; charset=utf-8";
     answer.body = std::make_shared<const std::string>(
@@ -206,24 +221,19 @@ RestAnswer notThere(const RestRequest& request, const FoundRoute& found) {
     if (found.allowed.empty())
         return problem(
             absl::NotFoundError("there is nothing at this path; see /api for what there is"), 404);
-    RestAnswer answer =
-        problem(absl::UnimplementedError(fmt::format("{} is not done here; this path has {}",
-                                                     request.method.substr(0, 16), found.allowed)),
-                405);
-    answer.headers.emplace_back("Allow", found.allowed);
-    return answer;
+    return notDone(request, found.allowed);
 }
 
 }  // namespace
 
 RestAnswer RestDoor::answer(const RestRequest& request) const {
-    if (request.target.starts_with("/api") && !request.target.starts_with(kPrefix))
-        return page(request.target);
     const std::string_view target(request.target);
-    const std::string_view path = target.substr(0, target.find('?')).substr(kPrefix.size());
-    const FoundRoute found = findRoute(request.method, path);
-    if (path == "/openapi.json" && (request.method == "GET" || request.method == "HEAD"))
-        return document(request);
+    const std::string_view path = target.substr(0, target.find('?'));
+    if (!path.starts_with(kPrefix))
+        return page(request, path);
+    if (path == "/api/v1/openapi.json")
+        return reads(request) ? document(request) : notDone(request, "GET");
+    const FoundRoute found = findRoute(request.method, path.substr(kPrefix.size()));
     if (found.route == nullptr)
         return notThere(request, found);
     if (found.route->call->server_streaming())

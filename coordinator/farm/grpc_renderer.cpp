@@ -106,6 +106,7 @@ public:
                                                 Clock::time_point deadline) override {
         v1::OpenSceneRequest request;
         *request.mutable_scene() = wire::toMessage(scene);
+        request.set_address(address_);
         v1::OpenSceneResponse response;
         Calls::Call call(calls_, deadline);
         RETURN_IF_ERROR(

@@ -133,12 +133,19 @@ bool FramePipeline::hasIdleRenderer() const {
 
 absl::StatusOr<DrawnFrame> FramePipeline::draw(const PlannedFrame& frame,
                                                const std::function<void()>& handedOut) {
-    if (frame.byPrograms && programs_.mayDraw()) {
+    absl::Status failure;
+    if (frame.byPrograms && programs_.mayDraw(frame)) {
         absl::StatusOr<DrawnFrame> drawn = programs_.draw(frame, handedOut);
         if (drawn.ok() || frame.request.stop.stop_requested())
             return drawn;
+        failure = drawn.status();
     }
-    return drawCentrally(frame, handedOut);
+    const auto start = FramePlanner::Clock::now();
+    absl::StatusOr<DrawnFrame> drawn = drawCentrally(frame, handedOut);
+    if (drawn.ok() && absl::IsDeadlineExceeded(failure))
+        programs_.drawnWithout(frame.kind, std::chrono::duration_cast<std::chrono::milliseconds>(
+                                               FramePlanner::Clock::now() - start));
+    return drawn;
 }
 
 absl::StatusOr<DrawnFrame> FramePipeline::drawCentrally(const PlannedFrame& frame,

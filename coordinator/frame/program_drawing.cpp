@@ -11,12 +11,10 @@
 #include "coordinator/observe/stage_timer.h"
 #include "fabric/log.h"
 #include "fabric/status.h"
+#include "wire/local_address.h"
 
 namespace eyrie::coordinator {
 namespace {
-
-/// How long programs are left alone after one has failed.
-constexpr std::chrono::seconds kRest{2};
 
 std::uint64_t newSession() {
     std::random_device random;
@@ -42,9 +40,43 @@ std::vector<ActiveConfiguration::Taken> takenByAll(const PlannedFrame& frame,
 ProgramDrawing::ProgramDrawing(const Options& options, Crew& crew)
     : options_(options), crew_(crew), patience_(options.patience) {}
 
-bool ProgramDrawing::mayDraw() const {
-    const std::lock_guard lock(mutex_);
-    return Clock::now() >= restsUntil_;
+bool ProgramDrawing::mayDraw(const PlannedFrame& frame) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!rest_.isOver(Clock::now()))
+            return false;
+    }
+    return allReachEachOther(frame);
+}
+
+/// Addresses are those by which the coordinator reaches renderers. One that leads to its own
+/// machine leads others elsewhere.
+bool ProgramDrawing::allReachEachOther(const PlannedFrame& frame) {
+    const std::vector<std::string> addresses = addressesOf(frame);
+    const std::vector<compound::PlannedProgram>& programs = frame.byPrograms->exchange.programs;
+    for (std::size_t i = 0; i < programs.size(); ++i)
+        for (const auto& taker : programs[i].takers) {
+            if (!taker || !wire::leadsToOwnMachine(addresses[*taker]) ||
+                wire::leadsToOwnMachine(addresses[i]))
+                continue;
+            const std::lock_guard lock(mutex_);
+            if (told_.insert(addresses[*taker]).second)
+                spdlog::warn(
+                    "the renderer at {} cannot be reached by that at {}, which has pictures for "
+                    "it: they are put together here; start it with --listen at an address that "
+                    "other machines reach, or with --listen 0.0.0.0:PORT and a --coordinator that "
+                    "they reach",
+                    addresses[*taker], addresses[i]);
+            return false;
+        }
+    return true;
+}
+
+std::vector<std::string> ProgramDrawing::addressesOf(const PlannedFrame& frame) const {
+    std::vector<std::string> addresses;
+    for (const std::size_t each : frame.byPrograms->renderers)
+        addresses.push_back(crew_.addressOf(frame.members[each]->id()));
+    return addresses;
 }
 
 std::chrono::milliseconds ProgramDrawing::patienceWith(std::uint64_t kind) const {
@@ -62,23 +94,28 @@ std::uint64_t ProgramDrawing::sessionOf(std::uint64_t revision) {
 absl::StatusOr<DrawnFrame> ProgramDrawing::draw(const PlannedFrame& frame,
                                                 const std::function<void()>& handedOut) {
     absl::StatusOr<DrawnFrame> drawn = tryToDraw(frame, handedOut);
-    if (!drawn.ok() && !frame.request.stop.stop_requested()) {
+    if (!drawn.ok() && frame.request.stop.stop_requested())
+        return drawn;
+    if (!drawn.ok())
         spdlog::warn("frame {} is put together here: {}", frame.number, drawn.status().ToString());
-        const std::lock_guard lock(mutex_);
-        restsUntil_ = Clock::now() + kRest;
-    }
+    const std::lock_guard lock(mutex_);
+    if (drawn.ok())
+        rest_.succeeded();
+    else
+        rest_.failed(Clock::now());
     return drawn;
+}
+
+void ProgramDrawing::drawnWithout(std::uint64_t kind, std::chrono::milliseconds taken) {
+    const std::lock_guard lock(mutex_);
+    patience_.record(kind, taken, taken);
 }
 
 absl::StatusOr<DrawnFrame> ProgramDrawing::tryToDraw(const PlannedFrame& frame,
                                                      const std::function<void()>& handedOut) {
     const PlannedFrame::ByPrograms& programs = *frame.byPrograms;
     std::vector<std::shared_ptr<Member>> renderers;
-    std::vector<std::string> addresses;
-    for (const std::size_t each : programs.renderers) {
-        renderers.push_back(frame.members[each]);
-        addresses.push_back(crew_.addressOf(renderers.back()->id()));
-    }
+    for (const std::size_t each : programs.renderers) renderers.push_back(frame.members[each]);
     const std::chrono::milliseconds timeout = patienceWith(frame.kind);
     const std::uint64_t session = sessionOf(frame.scene.revision);
     const auto started = Clock::now();
@@ -90,7 +127,7 @@ absl::StatusOr<DrawnFrame> ProgramDrawing::tryToDraw(const PlannedFrame& frame,
             {frame.frameData, frame.scene.revision, session, frame.scene.scene->background,
              frame.request.completeness, frame.request.measuresStages, timeout, handedOut,
              options_.freed, frame.request.stop},
-            renderers, addresses);
+            renderers, addressesOf(frame));
     });
     Dispatch::Plan others =
         dispatchOf(frame, programs.others, programs.takers, patienceWith(frame.kind));
@@ -99,8 +136,7 @@ absl::StatusOr<DrawnFrame> ProgramDrawing::tryToDraw(const PlannedFrame& frame,
     others.telemetry = options_.telemetry;
     auto drawn = std::make_shared<Dispatch>(std::move(others))->run(crew_);
     absl::StatusOr<ProgramRuns::Result> ran = running.get();
-    if ((ran.ok() && drawn.ok()) || absl::IsDeadlineExceeded(ran.status())) {
-        // Of what is not done in time so much is known: it takes as long at least.
+    if (ran.ok() && drawn.ok()) {
         const std::lock_guard lock(mutex_);
         patience_.record(
             frame.kind, timeout,

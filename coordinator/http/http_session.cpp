@@ -230,6 +230,7 @@ private:
         parser_.emplace();
         parser_->header_limit(kMaxHeaderBytes);
         parser_->body_limit(kMaxBodyBytes);
+        isHead_ = false;          // until it has come; what does not come is told why
         stream_.expires_never();  // it would close the connection, and nobody would be told why
         isReading_ = true;
         patience_.expires_after(context_.options.headerTimeout);

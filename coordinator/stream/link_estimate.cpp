@@ -109,7 +109,9 @@ std::optional<double> LinkEstimate::bytesPerSecond(Clock::time_point now) const 
 }
 
 std::optional<Clock::time_point> LinkEstimate::waitingSince() const {
-    return underWay_.empty() ? std::nullopt : std::optional(underWay_.front().at);
+    if (underWay_.empty())
+        return std::nullopt;
+    return std::max(underWay_.front().at, lastArrival_.value_or(Clock::time_point()));
 }
 
 }  // namespace eyrie::stream

@@ -45,7 +45,8 @@ public:
     Clock::duration shortestRoundTrip() const;
 
     std::size_t bytesUnderWay() const { return bytesUnderWay_; }
-    /// When the oldest of what is under way was sent.
+    /// When the oldest of what is under way was sent or, if that is later, something last arrived:
+    /// a link that has become slow is none that is gone.
     std::optional<Clock::time_point> waitingSince() const;
 
 private:

@@ -322,8 +322,10 @@ void Session::Impl::composeStates(std::unique_lock<std::mutex>& lock) {
     // A view that came before the first state was drawn without knowing the ground.
     const bool isOther =
         source_.has_value() ? !(*source_ == source) : source.sceneInfo.ground != nullptr;
-    if (isOther)
+    if (isOther) {
         progress_.sourceChanged();
+        for (const auto& seat : seats_) seat->outbox.dropStill();
+    }
     // So may a screen have been looked for before there was a first state to compare with.
     if (isOther || !source_)
         for (const auto& seat : seats_)

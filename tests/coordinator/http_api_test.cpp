@@ -349,6 +349,21 @@ TEST_F(HttpApi, ErrorsAreProblems) {
     EXPECT_THAT(ask("GET /api"), HasSubstr("<title>Eyrie"));
 }
 
+TEST_F(HttpApi, WhatOnlyDescribesItIsReadAndNothingElse) {
+    for (const char* path : {"/api", "/api/", "/api/style.css", "/api/v1/openapi.json"}) {
+        for (const std::string& query : {std::string(), std::string("?x=1")})
+            for (const std::string& method : {std::string("GET "), std::string("HEAD ")})
+                EXPECT_THAT(ask(method + path + query), StartsWith("HTTP/1.1 200"))
+                    << method << path << query;
+        for (const std::string& method : {std::string("POST "), std::string("DELETE ")}) {
+            const std::string answer = ask(method + path);
+            EXPECT_THAT(answer, StartsWith("HTTP/1.1 405")) << method << path;
+            EXPECT_THAT(answer, HasSubstr("Allow: GET\r\n")) << method << path;
+        }
+    }
+    EXPECT_THAT(ask("POST /api/none"), StartsWith("HTTP/1.1 404"));
+}
+
 TEST(Roles, OfACallAreTheSameByEitherDoor) {
     ASSERT_FALSE(api::restRoutes().empty());
     for (const api::Route& route : api::restRoutes())

@@ -114,6 +114,18 @@ TEST_F(HttpServer, AnswersHeadWithoutABodyAndRefusesOtherMethods) {
     EXPECT_EQ(post["Allow"], "GET, HEAD");
 }
 
+TEST_F(HttpServer, SaysWhatIsWrongWithWhatComesAfterAHead) {
+    start();
+    tcp::socket socket = connect();
+    asio::write(socket, asio::buffer(std::string("HEAD / HTTP/1.1\r\nHost: localhost\r\n\r\n"
+                                                 "what is this?\r\n\r\n")));
+    std::string received;
+    beast::error_code error;
+    asio::read(socket, asio::dynamic_buffer(received), error);
+    EXPECT_THAT(received, HasSubstr("HTTP/1.1 400"));
+    EXPECT_THAT(received, HasSubstr("this is not HTTP/1.1"));
+}
+
 TEST_F(HttpServer, KeepsAConnectionForManyRequests) {
     start();
     tcp::socket socket = connect();

@@ -228,6 +228,19 @@ TEST(LinkEstimate, BelievesNothingOfWhatWasNotSent) {
     EXPECT_LE(*link.bytesPerSecond(start), 100 * 1000);
 }
 
+TEST(LinkEstimate, WaitsSinceSomethingArrivedThatWasSentBefore) {
+    LinkEstimate link;
+    const Clock::time_point start;
+    for (std::uint64_t i = 1; i <= 5; ++i) link.sent(1, i * 100, 100, start);
+    EXPECT_EQ(link.waitingSince(), start);
+    link.arrived(1, 100, start + seconds(6));
+    EXPECT_EQ(link.waitingSince(), start + seconds(6));
+    link.arrived(1, 500, start + seconds(8));
+    EXPECT_FALSE(link.waitingSince().has_value());
+    link.sent(2, LinkEstimate::kWhole, 100, start + seconds(20));
+    EXPECT_EQ(link.waitingSince(), start + seconds(20));
+}
+
 TEST(QualityControl, FallsAtOnceAndRisesStepByStep) {
     QualityControl quality;
     const Clock::time_point start;

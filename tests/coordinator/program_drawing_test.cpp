@@ -82,9 +82,12 @@ public:
         for (const fabric::ProgramStage& stage : program.stages)
             RETURN_IF_ERROR(carryOut(stage, program, deadline, stop, buffer, result));
         std::unique_lock lock(mutex_);
-        changed_.wait_until(lock, stop, deadline, [this] { return !holdsAnswers_ || cancelled_; });
+        const bool isAnswered = changed_.wait_until(
+            lock, stop, deadline, [this] { return !holdsAnswers_ || cancelled_; });
         if (cancelled_ || stop.stop_requested())
             return absl::CancelledError("cancelled");
+        if (!isAnswered)
+            return absl::DeadlineExceededError("the answer is held");
         return result;
     }
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest&, Clock::time_point) override {
@@ -156,31 +159,42 @@ private:
 
 class ProgramDrawingTest : public FramePipelineTest {
 protected:
-    ProgramDrawingTest() : FramePipelineTest(std::chrono::seconds(20)) {}
+    explicit ProgramDrawingTest(std::chrono::milliseconds patience = std::chrono::seconds(20))
+        : FramePipelineTest(patience) {}
 
-    /// So many renderers, once all have taken part in programs.
-    std::vector<std::shared_ptr<ExchangingRenderer>> exchanging(int count) {
+    using Renderers = std::vector<std::shared_ptr<ExchangingRenderer>>;
+
+    Renderers added(const std::vector<std::string>& addresses) {
         pipeline_.setScene(sceneNamed("first"));
-        std::vector<std::shared_ptr<ExchangingRenderer>> renderers;
-        for (int i = 0; i < count; ++i) {
-            const std::string address = fmt::format("fake:{}", i);
+        Renderers renderers;
+        for (const std::string& address : addresses) {
             renderers.push_back(std::make_shared<ExchangingRenderer>(address, layers_, post_));
             EXPECT_TRUE(registry_
                             .add(address, {"", address, "", "", true}, renderers.back(),
                                  Registry::Clock::now())
                             .ok());
         }
+        return renderers;
+    }
+    /// Frames are drawn until all renderers have taken part; then begins the count.
+    void awaitAll(const Renderers& renderers, std::atomic<int> ExchangingRenderer::*part) {
         EXPECT_TRUE(eventually([&] {
             return pipeline_.renderFrame(request()).ok() &&
                    std::ranges::all_of(renderers,
-                                       [](const auto& one) { return one->programs > 0; });
+                                       [&](const auto& one) { return (*one).*part > 0; });
         }));
         for (const auto& one : renderers) one->programs = one->channels = 0;
+    }
+    /// So many renderers, once all have taken part in programs.
+    Renderers exchanging(int count) {
+        std::vector<std::string> addresses;
+        for (int i = 0; i < count; ++i) addresses.push_back(fmt::format("fake:{}", i));
+        Renderers renderers = added(addresses);
+        awaitAll(renderers, &ExchangingRenderer::programs);
         return renderers;
     }
     /// A frame for which every renderer has begun its program.
-    std::future<absl::StatusOr<RenderedFrame>> begun(
-        const std::vector<std::shared_ptr<ExchangingRenderer>>& renderers) {
+    std::future<absl::StatusOr<RenderedFrame>> begun(const Renderers& renderers) {
         auto frame =
             std::async(std::launch::async, [this] { return pipeline_.renderFrame(request()); });
         EXPECT_TRUE(eventually([&] {
@@ -271,6 +285,52 @@ TEST_P(ProgramDrawingTest, ARendererThatLeavesFinishesItsProgram) {
     EXPECT_TRUE(drawn->image == layers_->whole(kWidth, kHeight));
     for (const auto& one : renderers) EXPECT_EQ(one->channels, 0) << "drawn without programs";
     EXPECT_TRUE(eventually([&] { return registry_.entries().size() == 1; }));
+}
+
+/// Where programs are given up after half a second while nothing is known of frames.
+class ImpatientProgramsTest : public ProgramDrawingTest {
+protected:
+    ImpatientProgramsTest() : ProgramDrawingTest(std::chrono::milliseconds(500)) {}
+
+    /// What the next frame takes for which a renderer begins a program.
+    Registry::Clock::duration nextTry(const ExchangingRenderer& renderer) {
+        const int before = renderer.programs;
+        Registry::Clock::duration taken{};
+        EXPECT_TRUE(eventually([&] {
+            const auto start = Registry::Clock::now();
+            const bool isDrawn = pipeline_.renderFrame(request()).ok();
+            taken = Registry::Clock::now() - start;
+            return isDrawn && renderer.programs > before;
+        }));
+        return taken;
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Of, ImpatientProgramsTest, testing::Values("direct-send"),
+                         [](const auto& of) { return test::identifier(of.param); });
+
+TEST_P(ImpatientProgramsTest, ProgramsThatAreNeverAnsweredAreNotWaitedForLongerEachTime) {
+    const auto renderers = added({"fake:0", "fake:1"});
+    for (const auto& one : renderers) one->holdAnswers(true);
+    for (int i = 0; i < 2; ++i)
+        EXPECT_LT(nextTry(*renderers[0]), std::chrono::milliseconds(1300)) << "try " << i;
+}
+
+TEST_P(ProgramDrawingTest, WhatRenderersCannotSendEachOtherIsPutTogetherHere) {
+    const auto renderers = added({"10.0.0.7:1", "127.0.0.1:1"});
+    awaitAll(renderers, &ExchangingRenderer::channels);
+    expectWholePicture();
+    for (const auto& one : renderers) {
+        EXPECT_EQ(one->programs, 0) << "its peer's address leads it to itself";
+        EXPECT_EQ(one->channels, 1);
+    }
+}
+
+TEST_P(ProgramDrawingTest, RenderersOfOneMachineReachEachOtherByAnyAddress) {
+    const auto renderers = added({"unix:/run/r0", "127.0.0.1:1", "[::1]:1", "0.0.0.0:2"});
+    awaitAll(renderers, &ExchangingRenderer::programs);
+    expectWholePicture();
+    for (const auto& one : renderers) EXPECT_EQ(one->channels, 0);
 }
 
 }  // namespace

@@ -235,6 +235,21 @@ TEST(Viewer, SendsNoMoreOfAStillPictureOnceTheViewMoves) {
     EXPECT_TRUE(browser.next()->frame().still()) << "nor one later";
 }
 
+TEST(Viewer, SendsNoMoreOfAStillPictureOnceTheSceneChanges) {
+    FakeFrameSource frames;
+    frames.setDraw(noisyFrame);
+    Browser browser(frames, resting());
+    startOfExact(browser);
+    coordinator::Status status = coordinator::readyStatus();
+    status.scene.objects[0].name = "dale";
+    frames.setStatus(status);
+    std::optional<v1::ViewerResponse> next;
+    do next = browser.next();
+    while (next && next->has_state());
+    ASSERT_TRUE(next && next->has_frame()) << "not a part, which is not acknowledged";
+    EXPECT_FALSE(next->frame().still());
+}
+
 TEST(Viewer, DoesNothingWhileNothingChanges) {
     FakeFrameSource frames;
     Browser browser(frames, resting());

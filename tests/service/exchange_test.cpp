@@ -400,6 +400,24 @@ TEST_F(PutFrameTest, ASenderThatGoesAwayAmidAFrameFailsTheProgram) {
     EXPECT_THAT(messageOf(answer.status()), HasSubstr("its sender went away"));
 }
 
+TEST_F(PutFrameTest, AFrameForAnotherRendererIsRefused) {
+    ASSERT_TRUE(renderer(0).openScene({}, soon()).ok());
+    const fabric::Image image = layer({5, 4, 20, 10}, 3);
+    v1::PutFrameRequest begin = header(image.area);
+    begin.mutable_header()->set_to("127.0.0.1:7000");
+    EXPECT_EQ(put({begin, chunk(image)}), grpc::StatusCode::INVALID_ARGUMENT);
+    begin.mutable_header()->set_to(address(0));
+    EXPECT_EQ(put({begin, chunk(image)}), grpc::StatusCode::OK);
+}
+
+TEST_F(ExchangeTest, RenderersThatKnowTheirAddressesTakeWhatIsSentThere) {
+    addNodes(2);
+    for (int i = 0; i < 2; ++i) ASSERT_TRUE(renderer(i).openScene({}, soon()).ok());
+    const auto answers =
+        runConnected([this](int i, std::uint64_t session) { return directSend(i, session); }, 77);
+    EXPECT_TRUE(assembled(answers) == centrallyMerged());
+}
+
 TEST_F(PutFrameTest, NonsenseIsRefused) {
     const fabric::Image image = layer({5, 4, 20, 10}, 3);
     EXPECT_EQ(put({}), grpc::StatusCode::INVALID_ARGUMENT);
