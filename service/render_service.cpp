@@ -110,7 +110,10 @@ grpc::ServerUnaryReactor* RenderService::OpenScene(grpc::CallbackServerContext* 
         status = scene.status();
     if (status.ok())
         status = thread_.post([this, scene = *std::move(scene), address = request->address(),
-                               response, reactor](ChannelDrawer& drawer) {
+                               response, reactor, context](ChannelDrawer& drawer) {
+            if (context->IsCancelled())
+                return reactor->Finish(wire::toGrpc(
+                    absl::CancelledError("the coordinator no longer waits for this scene")));
             const absl::Status opened = openScene(drawer, scene, picks_, *response);
             if (opened.ok()) {
                 background_ = scene.background;

@@ -18,6 +18,7 @@ namespace eyrie::service {
 
 /// What a test sees of a FakeDrawer, and how it holds it up.
 struct FakeDrawerControl {
+    std::atomic<int> opened{0};  ///< scenes
     std::atomic<int> begun{0};
     std::atomic<int> drawn{0};
     std::atomic<int> givenUp{0};  ///< nobody wanted it any more
@@ -73,6 +74,7 @@ public:
             return absl::NotFoundError("absent: no such file");
         if (!scene.objects.empty() && scene.objects[0].path == "endless")
             throw std::bad_alloc();
+        ++control_->opened;
         return fabric::SceneInfo{{{0, 0, 0}, {1, 1, 1}}, 12, 34};
     }
 

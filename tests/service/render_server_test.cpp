@@ -440,6 +440,22 @@ TEST_F(RenderServerTest, ReadersThatNeverReadAreGivenUpAfterAWhile) {
     impatient.server->Shutdown();
 }
 
+TEST_F(RenderServerTest, ASceneGivenUpBeforeItsTurnIsNotOpened) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    control_->hold();
+    std::jthread first([&] { EXPECT_TRUE(renderer_->render(task(8, 8, false), soon()).ok()); });
+    ASSERT_TRUE(eventually([&] { return control_->begun == 1; }));
+    const auto second = coordinator::connectRenderer(server_->address());
+    const auto shortly = ChannelRenderer::Clock::now() + std::chrono::milliseconds(50);
+    EXPECT_EQ(second->openScene({}, shortly).status().code(), absl::StatusCode::kDeadlineExceeded);
+    // Its cancellation is ahead of these on the same connection.
+    for (int i = 0; i < 200; ++i) ASSERT_TRUE(second->setFrameData(frameData(), soon()).ok());
+    control_->release();
+    first.join();
+    ASSERT_TRUE(renderer_->render(task(8, 8, false), soon()).ok());
+    EXPECT_EQ(control_->opened, 0);
+}
+
 TEST_F(RenderServerTest, CancelEndsTheCallInProgressAndEveryLaterOne) {
     ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
     control_->hold();
