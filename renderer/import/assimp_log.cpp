@@ -41,12 +41,11 @@ bool tellsOfALoss(std::string_view text) {
                                     "out of range",
                                     "gnoring",
                                     "will be ignored",
-                                    "nsupported",
+                                    "IFC: failed to",
                                     "not implemented",
                                     "not currently impl",
-                                    "failed to resolve",
-                                    "failed to convert",
-                                    "failed to generate",
+                                    "unsupported boolean",
+                                    "unsupported primitive",
                                     "did not encounter"};
     constexpr std::array kOthers = {
         "nimation", "bone",     "Bone",   "umbNail", "OptimizeMeshes", "property",

@@ -115,6 +115,15 @@ absl::Status writeTriangles(MeshSpool& spool, const ImportControl& control) {
         });
 }
 
+absl::Status checkAreLeft(const MeshSpool& spool, std::uint64_t triangles) {
+    if (triangles > 0)
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        fmt::format("faces: found {} triangles, none with any area, expected at least one; "
+                    "export the mesh again with its faces",
+                    spool.collapsedTriangles + spool.sourceTriangles));
+}
+
 using Corners = std::array<std::uint64_t, 3>;
 
 /// The least corner first.
@@ -239,17 +248,14 @@ absl::Status placeOnLattice(MeshSpool& spool, int latticeBits, std::uint64_t atO
                             const std::string& outPath, PackCounts& counts,
                             const ImportControl& control) {
     control.report("welding", 0);
+    RETURN_IF_ERROR(checkAreLeft(spool, spool.sourceTriangles));
     ASSIGN_OR_RETURN(spool.lattice, latticeOf(spool, latticeBits));
     RETURN_IF_ERROR(writeTriangles(spool, control));
     counts.degenerateTriangles =
         spool.collapsedTriangles + spool.sourceTriangles - spool.triangleCount;
     counts.isolatedVertices =
         static_cast<std::uint64_t>(std::count(spool.isUsed.begin(), spool.isUsed.end(), false));
-    if (spool.triangleCount == 0)
-        return absl::InvalidArgumentError(
-            fmt::format("faces: found {} triangles, none with any area, expected at least one; "
-                        "export the mesh again with its faces",
-                        spool.collapsedTriangles + spool.sourceTriangles));
+    RETURN_IF_ERROR(checkAreLeft(spool, spool.triangleCount));
     ASSIGN_OR_RETURN(spool.source, RowFile<mesh::Triangle>::create(outPath));  // done with
     RETURN_IF_ERROR(dropDuplicates(spool, atOnce, outPath, counts, control));
     control.report("welding", 1);

@@ -231,18 +231,14 @@ void splitAtCreases(Packing& packing, double creaseDegrees, PackCounts& counts) 
     counts.normalsComputed = true;
 }
 
-/// `total`: triangles of the source, of which some are gone already.
-absl::Status dropDegenerate(TriangleMesh& source, const std::vector<VertexKey>& keys,
-                            std::size_t total, PackCounts& counts) {
-    std::erase_if(source.triangles,
-                  [&keys](const mesh::Triangle& triangle) { return !hasArea(keys, triangle); });
-    counts.degenerateTriangles = total - source.triangles.size();
-    if (source.triangles.empty())
-        return absl::InvalidArgumentError(
-            fmt::format("faces: found {} triangles, none with any area, expected at least one; "
-                        "export the mesh again with its faces",
-                        total));
-    return absl::OkStatus();
+/// `total`: triangles of the source.
+absl::Status checkAreLeft(const TriangleMesh& source, std::size_t total) {
+    if (!source.triangles.empty())
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        fmt::format("faces: found {} triangles, none with any area, expected at least one; "
+                    "export the mesh again with its faces",
+                    total));
 }
 
 /// Whether corners that lie in the same places have the same colours and texture coordinates.
@@ -324,6 +320,7 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
     std::erase_if(source.triangles, [&source](const mesh::Triangle& triangle) {
         return isCollapsed(source, triangle);
     });
+    RETURN_IF_ERROR(checkAreLeft(source, total));
     const std::vector<std::uint8_t> used = findUsed(source);
     ASSIGN_OR_RETURN(const mesh::Lattice lattice,
                      options.lattice
@@ -331,7 +328,11 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
                          : mesh::fitLattice(boundsOf(source, used), options.latticeBits));
     Packing packing{std::move(source), {}, {}, {}, {}};
     packing.keys = latticeKeys(packing.source, used, lattice);
-    RETURN_IF_ERROR(dropDegenerate(packing.source, packing.keys, total, counts));
+    std::erase_if(packing.source.triangles, [&packing](const mesh::Triangle& triangle) {
+        return !hasArea(packing.keys, triangle);
+    });
+    RETURN_IF_ERROR(checkAreLeft(packing.source, total));
+    counts.degenerateTriangles = total - packing.source.triangles.size();
     RETURN_IF_ERROR(control.check());
     packing.byPosition = weld(packing.keys, packing.source.triangles);
     const std::size_t vertices = packing.keys.size();

@@ -111,6 +111,12 @@ TEST(MeshImport, ByPartsIsNotCoarsenedByFacesWithACornerTwiceEither) {
     ball.positions.emplace_back(1e12, 0, 0);
     ball.triangles.insert(ball.triangles.begin() + 100, {{far, far, far}, {0, far, far}});
     expectSameByParts(ball);
+    const test::TemporaryFolder folder;
+    ball.triangles.assign(5, {far, far, 0});
+    ASSERT_TRUE(writePly(ball, folder.file("m.ply")).ok());
+    EXPECT_THAT(
+        importByParts(folder.file("m.ply"), folder.file("m.eym"), 16384, {}).status().message(),
+        testing::HasSubstr("found 5 triangles, none with any area"));
 }
 
 /// A ball whose colours vanish from level to level.
