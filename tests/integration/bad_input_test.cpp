@@ -215,13 +215,18 @@ TEST_F(BadInput, ScenesThatCannotBeAreRefusedByFileAndField) {
         {"far.json",
          fmt::format(
              R"({{"objects":[{{"name":"star","mesh":"{}","transform":{{"scale":1e15}}}}]}})", mesh),
-         {"star", "metres", "transform"}},
+         {"star", "transform", "1e+14"}},
         {"endless.json",
          fmt::format(
              R"({{"objects":[{{"name":"all","mesh":"{}","transform":{{"scale":1e300}}}}]}})", mesh),
-         {"all", "metres"}},
+         {"all", "transform", "1e+14"}},
+        {"reach.json",
+         fmt::format(R"({{"objects":[{{"name":"moon","mesh":"{}","transform":)"
+                     R"({{"scale":1e14,"translation":[1e14,1e14,1e14]}}}}]}})",
+                     mesh),
+         {"moon", "metres", "transform"}},
     };
-    const std::set<std::string> opened = {"missing.json", "far.json", "endless.json"};
+    const std::set<std::string> opened = {"missing.json", "reach.json"};
     for (const Case& one : cases) {
         folder_.write(one.name, one.content);
         Words named = one.named;
