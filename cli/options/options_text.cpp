@@ -54,7 +54,9 @@ bool isOpenList(std::string_view line) {
 
 absl::Status endless(int line) {
     return absl::InvalidArgumentError(fmt::format(
-        "the list that begins in line {} has no end; put a ']' after its last value", line));
+        "the list that begins in line {} has no end; put a ']' after its last value, or quotes "
+        "around a value that is no list",
+        line));
 }
 
 }  // namespace
