@@ -118,6 +118,14 @@ TEST(AssimpReader, MultipliesVertexColoursAndLeavesBlankOnesOut) {
     EXPECT_TRUE(readWithAssimp(folder.file("plain.obj"))->colours.empty());
 }
 
+/// What reading that text says.
+std::vector<std::string> notesOfFile(const std::string& path, const std::string& text) {
+    test::writeFile(path, text);
+    const auto mesh = readWithAssimp(path);
+    EXPECT_TRUE(mesh.ok()) << mesh.status();
+    return mesh.ok() ? mesh->notes : std::vector<std::string>();
+}
+
 TEST(AssimpReader, SaysWhereCoordinatesLoseWhatOneSees) {
     const test::TemporaryFolder folder;
     const auto notesAt = [&](double x, const std::string& name) {
@@ -153,10 +161,7 @@ std::string gltfOfATriangle(std::string_view ofMesh, std::string_view ofNode,
 TEST(AssimpReader, SaysThatShapesAndSkeletonsAreLeftOut) {
     const test::TemporaryFolder folder;
     const auto notesOf = [&](const std::string& gltf) {
-        test::writeFile(folder.file("m.gltf"), gltf);
-        const auto mesh = readWithAssimp(folder.file("m.gltf"));
-        EXPECT_TRUE(mesh.ok()) << mesh.status();
-        return mesh.ok() ? mesh->notes : std::vector<std::string>();
+        return notesOfFile(folder.file("m.gltf"), gltf);
     };
     EXPECT_THAT(notesOf(gltfOfATriangle("", "", "")), IsEmpty());
     EXPECT_THAT(notesOf(gltfOfATriangle(R"(, "weights": [0])", "", "")), IsEmpty());
@@ -174,10 +179,7 @@ TEST(AssimpReader, SaysThatShapesAndSkeletonsAreLeftOut) {
 TEST(AssimpReader, SaysWhatFilesLackThatWereCutOffOrAreReadInPart) {
     const test::TemporaryFolder folder;
     const auto notesOf = [&](const std::string& name, const std::string& text) {
-        test::writeFile(folder.file(name), text);
-        const auto mesh = readWithAssimp(folder.file(name));
-        EXPECT_TRUE(mesh.ok()) << mesh.status();
-        return mesh.ok() ? mesh->notes : std::vector<std::string>();
+        return notesOfFile(folder.file(name), text);
     };
     const std::string facet =
         "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
@@ -206,10 +208,7 @@ std::string dxfOfABlock(int degrees, std::string_view end) {
 TEST(AssimpReader, SaysThatBlocksOfDxfAreNotTurned) {
     const test::TemporaryFolder folder;
     const auto notesOf = [&](const std::string& text) {
-        test::writeFile(folder.file("m.dxf"), text);
-        const auto mesh = readWithAssimp(folder.file("m.dxf"));
-        EXPECT_TRUE(mesh.ok()) << mesh.status();
-        return mesh.ok() ? mesh->notes : std::vector<std::string>();
+        return notesOfFile(folder.file("m.dxf"), text);
     };
     EXPECT_THAT(notesOf(dxfOfABlock(0, "0\nEOF\n")), IsEmpty());
     EXPECT_THAT(notesOf(dxfOfABlock(90, "0\nEOF\n")),
