@@ -43,7 +43,7 @@ bool tellsOfALoss(std::string_view text) {
                                     "will be ignored",
                                     "IFC: failed to",
                                     "not implemented",
-                                    "not currently impl",
+                                    "not currently implemented",
                                     "unsupported boolean",
                                     "unsupported primitive",
                                     "did not encounter"};

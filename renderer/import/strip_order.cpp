@@ -2,25 +2,14 @@
 #include "renderer/import/strip_order.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace eyrie::import {
-namespace {
 
-struct Block {
-    int columns = 0;
-    int rows = 0;
-};
-
-Block blockOf(GDALRasterBand& band) {
-    Block block;
-    band.GetBlockSize(&block.columns, &block.rows);
-    return block;
+bool isInStrips(GDALRasterBand& band) {
+    int columns = 0, rows = 0;
+    band.GetBlockSize(&columns, &rows);
+    return columns >= band.GetXSize();
 }
-
-}  // namespace
-
-bool isInStrips(GDALRasterBand& band) { return blockOf(band).columns >= band.GetXSize(); }
 
 std::uint64_t rowBytes(GDALDataset& dataset) {
     std::uint64_t bytes = 1;  // of a mask
@@ -34,7 +23,8 @@ std::uint64_t rowBytes(GDALDataset& dataset) {
 void StripOrder::prepare(int row, int end) {
     if (rows_ == 0)
         return;
-    const int rows = blockOf(*bands_.front()).rows;
+    int columns = 0, rows = 0;
+    bands_.front()->GetBlockSize(&columns, &rows);
     for (int y = std::max(next_, end - rows_) / rows; y < row / rows; ++y)
         for (GDALRasterBand* band : bands_)
             if (GDALRasterBlock* const block = band->GetLockedBlockRef(0, y))
