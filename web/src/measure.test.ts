@@ -256,6 +256,16 @@ describe("bandwidth", () => {
     expect(bandwidth(entries, 2000, 500, 2)).toEqual([16_000, 12_000]);
   });
 
+  it("of the link is told in plain numbers", () => {
+    const told = (linkBytesPerSecond: number): string => {
+      const history = new FrameHistory();
+      history.add({ ...entry(10, 1), linkBytesPerSecond });
+      return bandwidthDrawing(history, 0).text;
+    };
+    expect(told(18.8e6)).toBe("0.0 Mbit/s, the link carries 150 or more");
+    expect(told(0.43e6)).toBe("0.0 Mbit/s, the link carries 3.4 or more");
+  });
+
   it("is plotted for half a minute, however many frames came", () => {
     const history = new FrameHistory();
     const end = 100_000;

@@ -90,7 +90,8 @@ export function bandwidthDrawing({ entries, arrivals }: FrameHistory, now: numbe
   const y = axis(largest(rates, 1e6), 0, chartHeight);
   const last = rates[rates.length - 1] ?? 0;
   const link = 8 * (entries[entries.length - 1]?.linkBytesPerSecond ?? 0);
-  const carries = link > 0 ? `, the link carries ${(link / 1e6).toPrecision(2)} or more` : "";
+  const carries =
+    link > 0 ? `, the link carries ${Number((link / 1e6).toPrecision(2))} or more` : "";
   return {
     parts: [path("line", pathOf(rates.map((rate, i) => [x(i), y(rate)])))],
     text: `${(last / 1e6).toFixed(1)} Mbit/s${link > 1e9 ? "" : carries}`,
