@@ -38,10 +38,10 @@ const scales: Readonly<Record<Unit, Scale>> = {
     sign: "m",
     of: "metres of elevation",
     typed: 1,
-    digits: 2,
+    digits: 1,
     lowest: -maxHeight,
     highest: maxHeight,
-    narrowest: 0.01,
+    narrowest: 0.1,
   },
 };
 
