@@ -155,7 +155,7 @@ await run("move_test", async (browser, started) => {
   await browser.settled();
   const shown = await camera();
   check(apart(shown.eye, stood.eye) < 1e-9, "nearer the ground than other views may come");
-  const opened = await browser.openAnother(page.url());
+  const opened = await browser.openAnother(await browser.link());
   await opened.waitForFunction(() => window.eyrie?.exact && !window.eyrie.waitingMilliseconds);
   check(
     apart(await opened.evaluate(() => window.eyrie.camera.eye), stood.eye) < 1e-9,

@@ -38,7 +38,7 @@ await run("scene_test", async (browser, started) => {
   const hidden = await browser.picture();
   check(difference(all, hidden) > 0.005, "the keyboard hides an object");
   check((await browser.hook("triangles")) < triangles, "whose triangles are not counted");
-  const link = page.url();
+  const link = await browser.link();
   await page.goto("about:blank");
   await page.goto(link);
   await browser.settled();
@@ -106,7 +106,7 @@ await run("scene_test", async (browser, started) => {
     rmSync(folder, { recursive: true });
   }
 
-  const ownLink = page.url();
+  const ownLink = await browser.link();
   const own = await browser.picture();
   await page.goto("about:blank");
   await page.goto(ownLink);

@@ -166,6 +166,13 @@ export class Browser {
     }
   }
 
+  /** The address once it is of what is seen: it changes once a second at most. */
+  async link() {
+    await this.settled();
+    await this.page.waitForTimeout(1000);
+    return this.page.url();
+  }
+
   /** Every eighth pixel of the picture's middle as r, g, b, a one by one. */
   async picture() {
     const clip = { x: 200, y: 120, width: 700, height: 560 };

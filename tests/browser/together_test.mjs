@@ -92,6 +92,7 @@ await run("together", async (browser, started) => {
   await second.waitForFunction(isLed, undefined, patience);
   check(true, "the controls of who watches stand as the picture is");
   await exact(second);
+  await second.waitForTimeout(1000); // the address changes once a second at most
   check(
     second.url().includes("tau=4&") && second.url().includes("shading=wireframe"),
     `and so does the address (${new URL(second.url()).hash})`,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
 import type { Camera } from "./camera/camera";
 import {
@@ -16,9 +17,11 @@ import {
 } from "./look";
 import type { Primitive, Shape } from "./look";
 import { metres, times } from "./panel/format";
-import { edited, stripPixels } from "./panel/transfer";
+import { edited, groundOf, heightTyped, stripPixels, typedHeight } from "./panel/transfer";
 import { HeightUnit, PrimitiveShape } from "./protocol/gen/eyrie/v1/look_pb";
+import { SessionStateSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
 import { lookMessage, Shading } from "./protocol/messages";
+import { State } from "./state";
 
 const shapes: readonly Shape[] = ["blend", "box", "tent", "smooth"];
 const red: Primitive = { shape: "box", centre: 0.25, width: 0.25, colour: [1, 0, 0], opacity: 0.5 };
@@ -49,9 +52,37 @@ describe("a transfer function", () => {
   });
 
   it("shows in the strip what is opaque over bare ground", () => {
-    const pixels = stripPixels([{ ...red, opacity: 1 }], 101);
+    const pixels = stripPixels([{ ...red, opacity: 1 }], 101, [0, 1]);
     expect([...pixels.slice(4 * 25, 4 * 25 + 4)]).toEqual([255, 0, 0, 255]);
     expect(pixels[4 * 90 + 1]).toBeGreaterThan(100);
+  });
+
+  it("in metres shows in the strip from the lowest to the highest ground", () => {
+    const state = new State();
+    const session = create(SessionStateSchema, {
+      sceneBounds: { min: { z: 200 }, max: { z: 1200 } },
+    });
+    state.session.set(session);
+    expect(groundOf(state)).toEqual([0, 1]);
+    state.look.set({ ...defaultLook, unit: "metres" });
+    expect(groundOf(state)).toEqual([200, 1200]);
+    const snow: Primitive = { ...red, centre: 1200, width: 100, opacity: 1 };
+    const pixels = stripPixels([snow], 101, groundOf(state));
+    expect([...pixels.slice(4 * 95, 4 * 95 + 4)]).toEqual([255, 0, 0, 255]);
+    expect(pixels[4 * 85 + 1]).toBeGreaterThan(100);
+  });
+
+  it("has heights typed in as its unit has them, within what the server takes", () => {
+    expect([typedHeight(0.254, "relative"), typedHeight(512.345678, "metres")]).toEqual([
+      "25",
+      "512.3",
+    ]);
+    expect(heightTyped("25", "relative", 0)).toBe(0.25);
+    expect(["-5", "250"].map((text) => heightTyped(text, "relative", 0))).toEqual([0, 1]);
+    expect(["-5", "250", "1e9"].map((text) => heightTyped(text, "metres", -1e6))).toEqual([
+      -5, 250, 1e6,
+    ]);
+    expect(["", "x"].map((text) => heightTyped(text, "metres", 0))).toEqual([undefined, undefined]);
   });
 
   it("is edited without touching the one before", () => {

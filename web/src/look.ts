@@ -5,7 +5,10 @@ import type { Shading } from "./protocol/gen/eyrie/v1/shading_pb";
 
 export type Shape = "blend" | "box" | "tent" | "smooth";
 
-/** One colour at some heights. Heights are shares of the terrain's relief. */
+/** Of heights: shares of the terrain's relief, or metres of elevation. */
+export type Unit = "relative" | "metres";
+
+/** One colour at some heights, in the look's unit. */
 export interface Primitive {
   shape: Shape;
   centre: number;
@@ -39,9 +42,15 @@ export interface Look {
   colouring: Colouring;
   /** Used while `colouring` is "edited". */
   primitives: readonly Primitive[];
+  /** Of the primitives' heights. */
+  unit: Unit;
+  /** How far steep ground shows rock, 0 to 1. */
+  slopeShading: number;
   saturation: number;
   /** Metres between contour lines; 0 for none. */
   contourMetres: number;
+  /** How wide they are. */
+  contourPixels: number;
   tileBounds: boolean;
   pageBounds: boolean;
   levelTint: boolean;
@@ -75,14 +84,19 @@ export const defaultPrimitives: readonly Primitive[] = tints.map((colour, i) => 
   opacity: 1,
 }));
 
-export const maxPrimitives = 12;
+/** As the server has them. */
+export const maxPrimitives = 32;
+export const maxHeight = 1e6;
 
 export const defaultLook: Look = {
   exaggeration: 1,
   colouring: "tints",
   primitives: defaultPrimitives,
+  unit: "relative",
+  slopeShading: 1,
   saturation: 1,
   contourMetres: 0,
+  contourPixels: 1,
   tileBounds: false,
   pageBounds: false,
   levelTint: false,

@@ -8,9 +8,9 @@ import { mapArea, mapLength, pathLength, rise } from "./measure";
 import { axis, bandOf, logAxis } from "./panel/chart";
 import { areaWithError, lengthWithError } from "./panel/format";
 import { captionOf, overlayRuns, rowsOf } from "./panel/measure";
-import { errorDrawing, speedErrorDrawing, stagesDrawing } from "./panel/plots";
+import { bandwidthDrawing, errorDrawing, speedErrorDrawing, stagesDrawing } from "./panel/plots";
 import { chartOf, heightAlong } from "./profile";
-import { bandwidth } from "./view/history";
+import { bandwidth, FrameHistory } from "./view/history";
 
 const point = (x: number, y: number, z: number, error = 0): MeasuredPoint => ({
   position: [x, y, z],
@@ -207,21 +207,21 @@ describe("charts", () => {
   });
 });
 
-describe("plots", () => {
-  const entry = (total: number, tauAchieved: number) => ({
-    time: 0,
-    cull: 1,
-    draw: 2,
-    readback: 3,
-    total,
-    tauAsked: 1,
-    tauAchieved,
-    bytes: 0,
-    linkBytesPerSecond: 0,
-  });
-  const heights = (part: ReturnType<typeof errorDrawing>["parts"][number] | undefined): number[] =>
-    [...String(part?.attributes.d).matchAll(/,([\d.]+)/g)].map(([, y]) => Number(y));
+const entry = (total: number, tauAchieved: number) => ({
+  time: 0,
+  cull: 1,
+  draw: 2,
+  readback: 3,
+  total,
+  tauAsked: 1,
+  tauAchieved,
+  bytes: 0,
+  linkBytesPerSecond: 0,
+});
+const heights = (part: ReturnType<typeof errorDrawing>["parts"][number] | undefined): number[] =>
+  [...String(part?.attributes.d).matchAll(/,([\d.]+)/g)].map(([, y]) => Number(y));
 
+describe("plots", () => {
   it("show larger errors higher up", () => {
     const { parts, text } = errorDrawing([entry(10, 0.1), entry(10, 1), entry(10, 8)]);
     const [fine, same, coarse] = heights(parts[1]);
@@ -254,5 +254,28 @@ describe("bandwidth", () => {
       { time: 2000, bytes: 250 },
     ];
     expect(bandwidth(entries, 2000, 500, 2)).toEqual([16_000, 12_000]);
+  });
+
+  it("of the link is told in plain numbers", () => {
+    const told = (linkBytesPerSecond: number): string => {
+      const history = new FrameHistory();
+      history.add({ ...entry(10, 1), linkBytesPerSecond });
+      return bandwidthDrawing(history, 0).text;
+    };
+    expect(told(18.8e6)).toBe("0.0 Mbit/s, the link carries 150 or more");
+    expect(told(0.43e6)).toBe("0.0 Mbit/s, the link carries 3.4 or more");
+  });
+
+  it("is plotted for half a minute, however many frames came", () => {
+    const history = new FrameHistory();
+    const end = 100_000;
+    for (let i = 900; i-- > 0; )
+      history.add({ ...entry(10, 1), time: end - (i * 30_000) / 900, bytes: 1000 });
+    const plotted = heights(bandwidthDrawing(history, end).parts[0]);
+    expect(plotted).toHaveLength(60);
+    expect(Math.max(...plotted)).toBeLessThan(64);
+    expect(history.arrivals).toHaveLength(900);
+    history.add({ ...entry(10, 1), time: end + 15_000 });
+    expect(history.arrivals).toHaveLength(451);
   });
 });

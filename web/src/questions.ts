@@ -3,26 +3,44 @@
 import type { Vec3 } from "./camera/camera";
 import type { Point } from "./camera/touch";
 import { pickOf, placeOf, profileOf, seenPlace } from "./pick";
-import type { ViewerPicked, ViewerProfiled } from "./protocol/messages";
+import type { Place, Shown, ViewerPicked, ViewerProfiled } from "./protocol/messages";
 import type { Socket } from "./protocol/socket";
-import type { State } from "./state";
+import type { PickedPoint, State } from "./state";
 import type { Size } from "./view/size";
 
 /** Points of a profile: enough for a chart, and quick. */
 const profileSamples = 160;
 
+/** A double click's own clicks are no farther from it, in CSS pixels. */
+const doubleClickSlack = 8;
+
+/** What was clicked at, of the picture that was seen then. */
+interface Click {
+  at: Point;
+  shown: Shown;
+  place: Place;
+  /** The camera is to turn there. */
+  turns: boolean;
+  /** What is there may be added to what is measured. */
+  measures: boolean;
+  /** What was added. */
+  measured?: PickedPoint;
+}
+
 export class Questions {
   private pickSequence = 0;
-  /** That the picture had which was clicked. */
-  private pickExaggeration = 1;
+  /** Not answered yet. */
+  private asked: Click | null = null;
+  /** The server answers the newest only: while measuring, each click waits for those before it. */
+  private waiting: Click[] = [];
+  /** The last two that are not to turn the camera. */
+  private clicks: readonly Click[] = [];
   private profileSequence = 0;
   /** A walk's question for ground, and who waits for the answer. */
   private ground: {
     sequence: number;
     answered: (answer: ViewerProfiled | undefined) => void;
   } | null = null;
-  /** The pick that the camera is to turn to. */
-  private turnTo = 0;
 
   constructor(
     private readonly socket: Pick<Socket, "pick" | "profile">,
@@ -35,6 +53,12 @@ export class Questions {
       const [first] = state.measured.value;
       if (first !== undefined && first.exaggeration !== shown?.exaggeration) state.measured.set([]);
     });
+    state.measuring.watch(() => (this.waiting = []));
+    state.pick.watch((pick) => {
+      if (pick !== null) return;
+      this.asked = null;
+      this.waiting = [];
+    });
   }
 
   private get hidden(): readonly number[] {
@@ -43,6 +67,7 @@ export class Questions {
 
   /** Asks what is at a point of the canvas; false where it cannot be asked now. */
   pick(at: Point, canvas: Size, turns: boolean): boolean {
+    if (turns) this.takeBack(at);
     const shown = this.state.shown.value;
     if (shown === null) return false;
     const place = seenPlace(shown, placeOf(at, canvas, shown));
@@ -50,27 +75,56 @@ export class Questions {
       this.state.pick.set({ kind: "nothing" });
       return false;
     }
+    const click: Click = { at, shown, place, turns, measures: !turns };
+    if (!turns) this.clicks = [...this.clicks.slice(-1), click];
+    if (this.asked === null || !this.state.measuring.value) return this.ask(click);
+    this.waiting.push(click);
+    return true;
+  }
+
+  private ask(click: Click): boolean {
     const sequence = this.pickSequence + 1;
-    if (!this.socket.pick(sequence, shown, place)) {
+    if (!this.socket.pick(sequence, click.shown, click.place)) {
+      this.waiting = [];
       this.state.pick.set({ kind: "problem", text: "The server cannot be asked now" });
       return false;
     }
     this.pickSequence = sequence;
-    this.pickExaggeration = shown.exaggeration;
-    if (turns) this.turnTo = sequence;
+    this.asked = click;
     this.state.pick.set({ kind: "asking" });
     return true;
   }
 
+  /** A double click there measures nothing: its two clicks were none of their own. */
+  private takeBack(at: Point): void {
+    const isNear = (click: Click) =>
+      Math.hypot(click.at.x - at.x, click.at.y - at.y) <= doubleClickSlack;
+    const own = this.clicks.filter(isNear);
+    for (const click of own) click.measures = false;
+    this.waiting = this.waiting.filter((click) => !own.includes(click));
+    const { measured } = this.state;
+    const kept = measured.value.filter((point) => !own.some((click) => click.measured === point));
+    if (kept.length < measured.value.length) measured.set(kept);
+  }
+
   picked(answer: ViewerPicked): void {
-    const { state } = this;
-    if (Number(answer.sequence) !== this.pickSequence || state.pick.value === null) return;
-    const pick = pickOf(answer, state.session.value?.objectNames ?? [], this.pickExaggeration);
+    const { state, asked } = this;
+    if (Number(answer.sequence) !== this.pickSequence || asked === null) return;
+    this.asked = null;
+    const names = state.session.value?.objectNames ?? [];
+    const pick = pickOf(answer, names, asked.shown.exaggeration);
     state.pick.set(pick);
-    if (pick.kind !== "point") return;
-    if (this.turnTo === this.pickSequence) this.turn(pick.position);
-    else if (state.measuring.value && pick.exaggeration === state.shown.value?.exaggeration)
-      state.measured.set([...state.measured.value, pick]);
+    if (pick.kind === "point" && asked.turns) this.turn(pick.position);
+    else if (pick.kind === "point" && asked.measures) this.measure(asked, pick);
+    const next = this.waiting.shift();
+    if (next !== undefined) this.ask(next);
+  }
+
+  private measure(click: Click, point: PickedPoint): void {
+    const { measuring, measured, shown } = this.state;
+    if (!measuring.value || point.exaggeration !== shown.value?.exaggeration) return;
+    click.measured = point;
+    measured.set([...measured.value, point]);
   }
 
   /**
@@ -117,6 +171,8 @@ export class Questions {
   /** No answers come any more. */
   lost(): void {
     this.groundAnswered(undefined);
+    this.asked = null;
+    this.waiting = [];
     if (this.state.pick.value?.kind === "asking") this.state.pick.set(null);
     if (this.state.profile.value?.kind === "asking") this.state.profile.set(null);
   }

@@ -4,7 +4,8 @@ import { describe, expect, it, vi } from "vitest";
 import { addBookmark, readBookmarks, removeBookmark } from "./bookmarks";
 import type { Configured } from "./command";
 import { cameraJson, curlCommand, imageRequest, pythonScript, renderCommand } from "./command";
-import { defaultLook } from "./look";
+import { defaultLook, defaultPrimitives } from "./look";
+import type { Look } from "./look";
 import type { Output } from "./output";
 import { usualOutput } from "./output";
 import { configuredFor } from "./panel/displays";
@@ -64,6 +65,22 @@ describe("a link", () => {
     expect(decodeView(passedOn)).toEqual(special);
   });
 
+  it("has whatever look the server takes", () => {
+    const primitive = { ...defaultPrimitives[0]!, centre: -1e6, width: 1e6 };
+    const primitives = Array.from({ length: 32 }, () => primitive);
+    const look: Look = {
+      ...defaultLook,
+      colouring: "edited",
+      primitives,
+      unit: "metres",
+      slopeShading: 0,
+      contourPixels: 16,
+    };
+    expect(decodeView(encodeView({ ...plain, look }))?.look).toEqual(look);
+    const tooMany = { ...look, primitives: [...primitives, primitive] };
+    expect(decodeView(encodeView({ ...plain, look: tooMany }))).toBeUndefined();
+  });
+
   it("asks for nothing that the server would refuse", () => {
     const withContours = (metres: number) =>
       decodeView(encodeView({ ...plain, look: { ...defaultLook, contourMetres: metres } }));
@@ -101,6 +118,10 @@ describe("a link", () => {
       `${good}&look=${encodeURIComponent('{"objects":[{"object":0,"colour":[2,0,0],"shading":null}]}')}`,
       `${good}&look=${encodeURIComponent('{"objects":[{"object":0,"colour":null,"shading":9}]}')}`,
       `${good}&look=${encodeURIComponent('{"constructor":1}')}`,
+      `${good}&look=${encodeURIComponent('{"unit":"feet"}')}`,
+      `${good}&look=${encodeURIComponent('{"slopeShading":2}')}`,
+      `${good}&look=${encodeURIComponent('{"contourPixels":0}')}`,
+      `${good}&look=${encodeURIComponent('{"primitives":[{"shape":"box","centre":0,"width":0,"colour":[1,0,0],"opacity":1}]}')}`,
       `${good}&look=${encodeURIComponent('{"primitives":[{"shape":"box"}]}')}`,
       `${good.replace("tau=1", "tau=0")}`,
     ])

@@ -3,7 +3,7 @@
 import type { Camera, Vec3 } from "./camera/camera";
 import { isUsable } from "./camera/camera";
 import type { Look, ObjectLook, Primitive, Shape, Sun } from "./look";
-import { defaultLook, maxObjects, maxPrimitives } from "./look";
+import { defaultLook, maxHeight, maxObjects, maxPrimitives } from "./look";
 import { Shading } from "./protocol/messages";
 
 /** Everything that makes a picture of a scene what it is, but for its size. */
@@ -76,8 +76,8 @@ function isPrimitive(value: unknown): value is Primitive {
     typeof one === "object" &&
     one !== null &&
     shapes.includes(one.shape as Shape) &&
-    isNumber(one.centre, -10, 10) &&
-    isNumber(one.width, 1e-6, 10) &&
+    isNumber(one.centre, -maxHeight, maxHeight) &&
+    isNumber(one.width, Number.MIN_VALUE, maxHeight) &&
     isNumber(one.opacity, 0, 1) &&
     isColour(one.colour)
   );
@@ -123,8 +123,11 @@ const isPart: Record<keyof Look, (value: unknown) => boolean> = {
   colouring: (value) => value === "tints" || value === "edited" || value === "bare",
   primitives: (value) =>
     Array.isArray(value) && value.length <= maxPrimitives && value.every(isPrimitive),
+  unit: (value) => value === "relative" || value === "metres",
+  slopeShading: (value) => isNumber(value, 0, 1),
   saturation: (value) => isNumber(value, 0, 2),
   contourMetres: (value) => value === 0 || isNumber(value, 1e-3, 1e5),
+  contourPixels: (value) => isNumber(value, 0.25, 16),
   tileBounds: (value) => typeof value === "boolean",
   pageBounds: (value) => typeof value === "boolean",
   levelTint: (value) => typeof value === "boolean",

@@ -357,8 +357,8 @@ export class Viewer {
       inputToDrawnMilliseconds: this.sender.medianLatency(),
       frozen: this.state.look.value.frozen !== null,
     };
-    this.state.numbers.set(numbersOf(frame, seen, this.state.numbers.value?.limitedBy ?? ""));
     if (isExact) this.exactPicture = picture;
+    this.state.numbers.set(numbersOf(frame, seen, this.state.numbers.value?.limitedBy ?? ""));
   }
 
   private noteShown(frame: Frame): void {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From pointer, wheel and keys to a camera. The geometry is in orbit.ts, fly.ts and touch.ts.
 import type { Camera } from "./camera";
+import { isCommand } from "./commands";
 import { isScrolled, isText, isTyping } from "./typing";
 import type { Keys } from "./fly";
 import { fly, isFlyKey, look } from "./fly";
@@ -216,7 +217,7 @@ export class Controls {
   private keyDown(event: KeyboardEvent): void {
     this.isFast = event.shiftKey;
     if (event.ctrlKey || event.metaKey || event.altKey || isText(event.target)) return;
-    if (isFlyKey(event.code)) this.flyKeyDown(event);
+    if (isFlyKey(event.code) && !isCommand(event.key)) this.flyKeyDown(event);
     else if (this.otherKeyDown(event)) event.preventDefault();
   }
 

@@ -3,7 +3,7 @@
 // drawn a few times a second while they are seen, and cost nothing otherwise.
 import type { State } from "../state";
 import type { Entry } from "../view/history";
-import { bandwidth, FrameHistory } from "../view/history";
+import { arrivalsKept, bandwidth, FrameHistory } from "../view/history";
 import { axis, bandOf, chartHeight, chartWidth, largest, logAxis, pathOf, svg } from "./chart";
 import { byId, make, setText } from "./element";
 import { milliseconds, pixels } from "./format";
@@ -11,7 +11,7 @@ import { onKeys } from "./keys";
 
 const updateEvery = 250;
 const bandwidthSpan = 500;
-const bandwidthSpans = 60;
+const bandwidthSpans = arrivalsKept / bandwidthSpan;
 
 /** An SVG element, before it is one. */
 interface Part {
@@ -84,13 +84,14 @@ export function errorDrawing(entries: readonly Entry[]): Drawing {
   };
 }
 
-export function bandwidthDrawing(entries: readonly Entry[], now: number): Drawing {
-  const rates = bandwidth(entries, now, bandwidthSpan, bandwidthSpans);
+export function bandwidthDrawing({ entries, arrivals }: FrameHistory, now: number): Drawing {
+  const rates = bandwidth(arrivals, now, bandwidthSpan, bandwidthSpans);
   const x = axis(0, bandwidthSpans - 1, chartWidth);
   const y = axis(largest(rates, 1e6), 0, chartHeight);
   const last = rates[rates.length - 1] ?? 0;
   const link = 8 * (entries[entries.length - 1]?.linkBytesPerSecond ?? 0);
-  const carries = link > 0 ? `, the link carries ${(link / 1e6).toPrecision(2)} or more` : "";
+  const carries =
+    link > 0 ? `, the link carries ${Number((link / 1e6).toPrecision(2))} or more` : "";
   return {
     parts: [path("line", pathOf(rates.map((rate, i) => [x(i), y(rate)])))],
     text: `${(last / 1e6).toFixed(1)} Mbit/s${link > 1e9 ? "" : carries}`,
@@ -121,18 +122,26 @@ export function speedErrorDrawing(entries: readonly Entry[]): Drawing {
   return { parts, text };
 }
 
-const plots: readonly (readonly [string, string, (entries: readonly Entry[]) => Drawing])[] = [
-  ["Frame time", "On the server: the cut, drawing, readback and composition", stagesDrawing],
-  ["Error", "Drawn, and asked for (grey); by orders of magnitude", errorDrawing],
+const plots: readonly (readonly [string, string, (history: FrameHistory) => Drawing])[] = [
+  [
+    "Frame time",
+    "On the server: the cut, drawing, readback and composition",
+    ({ entries }) => stagesDrawing(entries),
+  ],
+  [
+    "Error",
+    "Drawn, and asked for (grey); by orders of magnitude",
+    ({ entries }) => errorDrawing(entries),
+  ],
   [
     "Bandwidth",
     "Pictures that came in the last half minute",
-    (entries) => bandwidthDrawing(entries, performance.now()),
+    (history) => bandwidthDrawing(history, performance.now()),
   ],
   [
     "Speed and error",
     "One dot a frame: to the left is faster, down is finer; both by orders of magnitude",
-    speedErrorDrawing,
+    ({ entries }) => speedErrorDrawing(entries),
   ],
 ];
 
@@ -148,7 +157,7 @@ export function showPlots(state: State): void {
     label.title = title;
     details.append(make("div", "field", make("div", "row", label, value), chart));
     return (): void => {
-      const { parts, text } = draw(history.entries);
+      const { parts, text } = draw(history);
       chart.replaceChildren(...parts.map(({ tag, attributes }) => svg(tag, attributes)));
       setText(value, text);
     };

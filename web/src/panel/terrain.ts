@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // How terrain is shown: height, colours, contour lines, and what the engine did.
-import { isText } from "../camera/typing";
 import type { Colouring } from "../look";
 import { exaggerationAt, nextInterval, placeOf, suggestedInterval } from "../look";
 import type { State } from "../state";
 import type { Viewer } from "../viewer";
 import { byId, make, setText } from "./element";
 import { metres, times } from "./format";
-import { onKeys } from "./keys";
+import { onHeldKeys, onKeys } from "./keys";
 import { change, slider, toggles } from "./look_controls";
 import { transferEditor } from "./transfer";
 
@@ -144,14 +143,9 @@ export function showTerrain(state: State, viewer: Viewer): void {
   );
 
   onKeys({ c: toggleContours, x: toggleFrozen, u: toggleUnderground });
-  // These go on while they are held.
-  const keys: Readonly<Record<string, () => void>> = {
+  onHeldKeys({
     "[": () => exaggerate(-0.1),
     "]": () => exaggerate(0.1),
     "\\": () => change(state, { exaggeration: 1 }),
-  };
-  window.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || isText(event.target)) return;
-    keys[event.key]?.();
   });
 }

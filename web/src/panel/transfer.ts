@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The editor of the elevation transfer function: a strip that shows it, and a row a primitive.
-import type { Primitive, Shape } from "../look";
-import { defaultPrimitives, evaluate, fromHex, maxPrimitives, toHex } from "../look";
+import type { Primitive, Shape, Unit } from "../look";
+import { defaultPrimitives, evaluate, fromHex, maxHeight, maxPrimitives, toHex } from "../look";
 import type { State } from "../state";
-import { make } from "./element";
+import { make, setText } from "./element";
+import { change } from "./look_controls";
 
 const shapes: readonly (readonly [Shape, string])[] = [
   ["blend", "Blend"],
@@ -12,15 +13,69 @@ const shapes: readonly (readonly [Shape, string])[] = [
   ["smooth", "Bell"],
 ];
 
+/** How heights of a unit are typed in: `typed` of them are one. */
+interface Scale {
+  sign: string;
+  of: string;
+  typed: number;
+  digits: number;
+  lowest: number;
+  highest: number;
+  narrowest: number;
+}
+
+const scales: Readonly<Record<Unit, Scale>> = {
+  relative: {
+    sign: "%",
+    of: "% of the relief",
+    typed: 100,
+    digits: 0,
+    lowest: 0,
+    highest: 1,
+    narrowest: 0.01,
+  },
+  metres: {
+    sign: "m",
+    of: "metres of elevation",
+    typed: 1,
+    digits: 1,
+    lowest: -maxHeight,
+    highest: maxHeight,
+    narrowest: 0.1,
+  },
+};
+
+/** A height as it is typed in. */
+export const typedHeight = (height: number, unit: Unit): string =>
+  String(Number((height * scales[unit].typed).toFixed(scales[unit].digits)));
+
+/** The height that was typed in, not below `least`; undefined where that is no number. */
+export function heightTyped(text: string, unit: Unit, least: number): number | undefined {
+  const typed = text === "" ? Number.NaN : Number(text);
+  if (!Number.isFinite(typed)) return undefined;
+  return Math.min(scales[unit].highest, Math.max(least, typed / scales[unit].typed));
+}
+
+/** The lowest and the highest ground, in the look's unit. */
+export function groundOf({ look, session }: Pick<State, "look" | "session">): [number, number] {
+  const { min, max } = session.value?.sceneBounds ?? {};
+  const isKnown = look.value.unit === "metres" && min !== undefined && max !== undefined;
+  return isKnown ? [min.z, max.z] : [0, 1];
+}
+
 const stripWidth = 256;
 /** What shows through where nothing is opaque: the server's bare ground, as displayed. */
 const bare = [0.548, 0.539, 0.52] as const;
 
-/** The pixels of the strip, lowest to highest, as r, g, b, a one by one. */
-export function stripPixels(primitives: readonly Primitive[], width: number): Uint8ClampedArray {
+/** The pixels of the strip, `lowest` to `highest`, as r, g, b, a one by one. */
+export function stripPixels(
+  primitives: readonly Primitive[],
+  width: number,
+  [lowest, highest]: readonly [number, number],
+): Uint8ClampedArray {
   const pixels = new Uint8ClampedArray(4 * width);
   for (let x = 0; x < width; ++x) {
-    const [r, g, b, a] = evaluate(primitives, x / (width - 1));
+    const [r, g, b, a] = evaluate(primitives, lowest + ((highest - lowest) * x) / (width - 1));
     [r, g, b].forEach((channel, i) => {
       const mixed = (bare[i] ?? 0) ** 2 * (1 - a) + channel ** 2 * a;
       pixels[4 * x + i] = 255 * Math.sqrt(mixed);
@@ -37,11 +92,13 @@ function strip(state: State): HTMLElement {
   canvas.setAttribute("role", "img");
   canvas.setAttribute("aria-label", "Colours from the lowest to the highest ground");
   const context = canvas.getContext("2d");
-  state.look.watch(({ primitives }) => {
+  const draw = (): void => {
     const image = new ImageData(stripWidth, 1);
-    image.data.set(stripPixels(primitives, stripWidth));
+    image.data.set(stripPixels(state.look.value.primitives, stripWidth, groundOf(state)));
     context?.putImageData(image, 0, 0);
-  });
+  };
+  state.look.watch(draw);
+  state.session.watch(draw);
   return canvas;
 }
 
@@ -55,26 +112,36 @@ export function edited(
   return primitives.map((primitive, i) => (i === at ? { ...primitive, ...by } : primitive));
 }
 
-function percentField(name: string, least: number, changed: (share: number) => void) {
+function heightField(
+  name: string,
+  leastOf: (scale: Scale) => number,
+  changed: (height: number) => void,
+) {
   const input = make("input", "percent");
   input.type = "number";
-  input.min = String(least);
-  input.max = "100";
-  input.step = "1";
-  input.title = `${name}, % of the relief`;
-  input.setAttribute("aria-label", input.title);
+  let unit: Unit = "relative";
   input.addEventListener("change", () => {
-    const percent = Number(input.value);
-    if (input.value !== "" && Number.isFinite(percent))
-      changed(Math.min(100, Math.max(least, percent)) / 100);
+    const height = heightTyped(input.value, unit, leastOf(scales[unit]));
+    if (height !== undefined) changed(height);
     else input.value = input.defaultValue;
   });
-  return input;
+  const show = (height: number, shownIn: Unit): void => {
+    unit = shownIn;
+    const { of, typed, digits, highest } = scales[unit];
+    input.min = String(leastOf(scales[unit]) * typed);
+    input.max = String(highest * typed);
+    input.step = digits === 0 ? "1" : "any";
+    input.title = `${name}, ${of}`;
+    input.setAttribute("aria-label", input.title);
+    // What is typed in and is no number leads back to the default value.
+    input.value = input.defaultValue = typedHeight(height, unit);
+  };
+  return { input, show };
 }
 
 interface Row {
   element: HTMLElement;
-  show(primitive: Primitive): void;
+  show(primitive: Primitive, unit: Unit): void;
 }
 
 function makeRow(change: (by?: Partial<Primitive>) => void): Row {
@@ -90,27 +157,34 @@ function makeRow(change: (by?: Partial<Primitive>) => void): Row {
     shape.append(option);
   }
   shape.addEventListener("change", () => change({ shape: shape.value as Shape }));
-  const centre = percentField("Centre", 0, (value) => change({ centre: value }));
-  const width = percentField("Width from the centre", 1, (value) => change({ width: value }));
+  const centre = heightField(
+    "Centre",
+    ({ lowest }) => lowest,
+    (value) => change({ centre: value }),
+  );
+  const width = heightField(
+    "Width from the centre",
+    ({ narrowest }) => narrowest,
+    (value) => change({ width: value }),
+  );
   const remove = make("button", "step", "×");
   remove.type = "button";
   remove.title = "Remove";
   remove.addEventListener("click", () => change());
-  const show = (primitive: Primitive): void => {
+  const show = (primitive: Primitive, unit: Unit): void => {
     colour.value = toHex(primitive.colour);
     shape.value = primitive.shape;
-    // What is typed in and is no number leads back to the default value.
-    centre.value = centre.defaultValue = String(Math.round(primitive.centre * 100));
-    width.value = width.defaultValue = String(Math.round(primitive.width * 100));
+    centre.show(primitive.centre, unit);
+    width.show(primitive.width, unit);
   };
-  return { element: make("div", "primitive", colour, shape, centre, width, remove), show };
+  const element = make("div", "primitive", colour, shape, centre.input, width.input, remove);
+  return { element, show };
 }
 
 export function transferEditor(state: State): HTMLElement {
   const rows: Row[] = [];
   const list = make("div", "primitives");
-  const set = (primitives: readonly Primitive[]): void =>
-    state.look.set({ ...state.look.value, primitives });
+  const set = (primitives: readonly Primitive[]): void => change(state, { primitives });
   const button = (text: string, clicked: () => void): HTMLButtonElement => {
     const made = make("button", "small", text);
     made.type = "button";
@@ -118,17 +192,25 @@ export function transferEditor(state: State): HTMLElement {
     return made;
   };
   const add = button("Add colour", () => {
-    const { primitives } = state.look.value;
+    const [lowest, highest] = groundOf(state);
+    const centre = (lowest + highest) / 2;
+    const width = (highest - lowest) / 10 || 1;
     set([
-      ...primitives,
-      { shape: "smooth", centre: 0.5, width: 0.1, colour: [0.8, 0.3, 0.2], opacity: 1 },
+      ...state.look.value.primitives,
+      { shape: "smooth", centre, width, colour: [0.8, 0.3, 0.2], opacity: 1 },
     ]);
   });
-  const reset = button("Start over", () => set(defaultPrimitives));
-  const names = make("div", "primitive names");
-  for (const name of ["", "", "centre %", "width %", ""]) names.append(make("span", "", name));
+  const reset = button("Start over", () =>
+    change(state, { primitives: defaultPrimitives, unit: "relative" }),
+  );
+  const centreName = make("span", "");
+  const widthName = make("span", "");
+  const none = (): HTMLElement => make("span", "");
+  const names = make("div", "primitive names", none(), none(), centreName, widthName, none());
   const editor = make("div", "transfer", strip(state), names, list, make("div", "row", add, reset));
-  state.look.watch(({ primitives, colouring }) => {
+  state.look.watch(({ primitives, colouring, unit }) => {
+    setText(centreName, `centre ${scales[unit].sign}`);
+    setText(widthName, `width ${scales[unit].sign}`);
     editor.hidden = colouring !== "edited";
     while (rows.length > primitives.length) rows.pop()?.element.remove();
     for (let i = rows.length; i < primitives.length; ++i) {
@@ -136,7 +218,7 @@ export function transferEditor(state: State): HTMLElement {
       rows.push(row);
       list.append(row.element);
     }
-    primitives.forEach((primitive, i) => rows[i]?.show(primitive));
+    primitives.forEach((primitive, i) => rows[i]?.show(primitive, unit));
     add.disabled = primitives.length >= maxPrimitives;
   });
   return editor;

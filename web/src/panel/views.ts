@@ -17,6 +17,8 @@ import { posterField } from "./poster";
 
 /** How long an exact picture may take to come, when one is to be saved. */
 const exactWithin = 10_000;
+/** The address changes no oftener: browsers refuse that, Safari from 100 times in half a minute on. */
+const addressEvery = 1000;
 
 function bookmarkList(state: State, viewer: Viewer): HTMLElement {
   const list = make("ul", "bookmarks");
@@ -114,11 +116,25 @@ function commands(state: State, viewer: Viewer) {
 }
 
 /** Keeps the address a link to the view that is shown, and follows it when it is edited. */
-export function keepAddress(state: State, viewer: Viewer): void {
+export function keepAddress(
+  state: Pick<State, "numbers" | "notice">,
+  viewer: Pick<Viewer, "sharedView" | "show">,
+): void {
+  let fragment = "";
+  let writtenAt = -Infinity;
+  let timer: number | undefined;
+  const write = (): void => {
+    timer = undefined;
+    if (fragment === window.location.hash) return;
+    writtenAt = performance.now();
+    window.history.replaceState(null, "", fragment);
+  };
   const follow = (): void => {
-    const fragment = window.location.hash;
-    if (fragment.length <= 1) return;
-    const view = decodeView(fragment);
+    window.clearTimeout(timer);
+    timer = undefined;
+    const { hash } = window.location;
+    if (hash.length <= 1) return;
+    const view = decodeView(hash);
     if (view === undefined) state.notice.set("The link's view cannot be read; it is left out");
     else viewer.show(view);
   };
@@ -126,8 +142,11 @@ export function keepAddress(state: State, viewer: Viewer): void {
   window.addEventListener("hashchange", follow);
   state.numbers.watch((numbers) => {
     const view = viewer.sharedView();
-    if (numbers?.exact === true && view !== null)
-      window.history.replaceState(null, "", `#${encodeView(view)}`);
+    if (numbers?.exact !== true || view === null) return;
+    fragment = `#${encodeView(view)}`;
+    const wait = writtenAt + addressEvery - performance.now();
+    if (wait <= 0) write();
+    else timer ??= window.setTimeout(write, wait);
   });
 }
 

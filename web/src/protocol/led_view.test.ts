@@ -46,8 +46,11 @@ describe("a view that another leads to", () => {
       exaggeration: 0,
       colouring: "edited",
       primitives: [{ ...defaultPrimitives[0]!, shape: "tent", opacity: 0.5, colour: [0.5, 0, 1] }],
+      unit: "metres",
+      slopeShading: 0,
       saturation: 0,
       contourMetres: 50,
+      contourPixels: 4,
       tileBounds: true,
       rangeTint: true,
       frozen: view.camera as unknown as Look["frozen"],
@@ -60,6 +63,8 @@ describe("a view that another leads to", () => {
       ],
     };
     expect(led(edited)?.look).toEqual(edited);
+    // By their texts it is known whether two looks are the same.
+    expect(JSON.stringify(led(edited)?.look)).toBe(JSON.stringify(edited));
     expect(led({ ...defaultLook, colouring: "bare" })?.look.colouring).toBe("bare");
   });
 });

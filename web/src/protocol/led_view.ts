@@ -5,7 +5,7 @@ import { defaultLook } from "../look";
 import type { Output } from "../output";
 import type { SharedView } from "../share";
 import type { Look as LookMessage, ObjectLook as ObjectLookMessage } from "./gen/eyrie/v1/look_pb";
-import { PrimitiveShape } from "./gen/eyrie/v1/look_pb";
+import { HeightUnit, PrimitiveShape } from "./gen/eyrie/v1/look_pb";
 import type { ShownPicture, ViewRequest } from "./gen/eyrie/v1/viewer_pb";
 import { ShownEye, ShownStereo } from "./gen/eyrie/v1/viewer_pb";
 import { cameraOf } from "./messages";
@@ -34,7 +34,7 @@ function objectLookOf({ object, colour, shading }: ObjectLookMessage): ObjectLoo
 
 function lookOf(message: LookMessage | undefined, underground: boolean): Look {
   if (message === undefined) return { ...defaultLook, underground };
-  const { transfer } = message;
+  const { transfer, contours } = message;
   const isBare = transfer?.primitives.length === 0;
   const colouring: Colouring = transfer === undefined ? "tints" : isBare ? "bare" : "edited";
   const primitives = transfer?.primitives.map(({ shape, centre, width, colour, opacity }) => {
@@ -48,12 +48,16 @@ function lookOf(message: LookMessage | undefined, underground: boolean): Look {
     };
     return primitive;
   });
+  const isEdited = colouring === "edited";
   return {
     exaggeration: message.exaggeration ?? defaultLook.exaggeration,
     colouring,
-    primitives: colouring === "edited" && primitives ? primitives : defaultLook.primitives,
+    primitives: isEdited && primitives ? primitives : defaultLook.primitives,
+    unit: isEdited && transfer?.unit === HeightUnit.METRES ? "metres" : "relative",
+    slopeShading: message.slopeShading ?? defaultLook.slopeShading,
     saturation: message.saturation ?? defaultLook.saturation,
-    contourMetres: message.contours?.intervalMetres ?? 0,
+    contourMetres: contours?.intervalMetres ?? 0,
+    contourPixels: contours?.widthPixels ?? defaultLook.contourPixels,
     tileBounds: message.tileBounds,
     pageBounds: message.pageBounds,
     levelTint: message.levelTint,

@@ -134,7 +134,7 @@ function transferMessage(look: Look) {
   if (look.colouring === "tints") return {};
   const primitives = look.colouring === "bare" ? [] : look.primitives;
   const transfer = create(TransferFunctionSchema, {
-    unit: HeightUnit.RELATIVE,
+    unit: look.unit === "metres" ? HeightUnit.METRES : HeightUnit.RELATIVE,
     primitives: primitives.map((primitive) => ({
       ...primitive,
       shape: shapes[primitive.shape],
@@ -148,9 +148,15 @@ export function lookMessage(look: Look): LookMessage {
   return create(LookSchema, {
     exaggeration: look.exaggeration,
     ...transferMessage(look),
+    slopeShading: look.slopeShading,
     saturation: look.saturation,
     ...(look.contourMetres > 0
-      ? { contours: create(ContourLinesSchema, { intervalMetres: look.contourMetres }) }
+      ? {
+          contours: create(ContourLinesSchema, {
+            intervalMetres: look.contourMetres,
+            widthPixels: look.contourPixels,
+          }),
+        }
       : {}),
     tileBounds: look.tileBounds,
     pageBounds: look.pageBounds,
