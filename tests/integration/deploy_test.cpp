@@ -85,6 +85,17 @@ TEST(Deploy, ComposeGivesEachCommandOptionsThatItHas) {
     EXPECT_EQ(commands, 2);
 }
 
+/// It listens on all of the container's addresses, but is published to one machine.
+TEST(Deploy, WhereNobodyIsAskedForATokenNoStrangersNameIsAnswered) {
+    const std::string compose = textOf("compose.yaml");
+    std::smatch command;
+    ASSERT_TRUE(std::regex_search(compose, command, std::regex("command: \\[coordinator,[^\n]*")));
+    EXPECT_THAT(command.str(), HasSubstr(" --insecure, --local-names-only,"));
+    EXPECT_THAT(textOf("helm/eyrie/templates/coordinator.yaml"),
+                HasSubstr("{{- if not (or .Values.access.tokenSecret .Values.access.tlsSecret) }}\n"
+                          "            - --local-names-only\n"));
+}
+
 TEST(Deploy, TheChartIsOfThisVersion) {
     const std::string chart = textOf("helm/eyrie/Chart.yaml");
     const std::string said = test::eyrie({"--version"}).output;
