@@ -85,6 +85,18 @@ TEST(Deploy, ComposeGivesEachCommandOptionsThatItHas) {
     EXPECT_EQ(commands, 2);
 }
 
+/// Compose builds for all services at once, and fails where two of them make the same image.
+TEST(Deploy, ComposeBuildsTheImageOnce) {
+    const std::string text = textOf("compose.yaml");
+    const std::size_t build = text.find(" build: ");
+    EXPECT_EQ(text.find(" build: ", build + 1), std::string::npos);
+    EXPECT_GT(build, text.find("\n  coordinator:\n"));
+    EXPECT_LT(build, text.find("\n  renderer-1: "));
+    const std::size_t renderer = text.find("\nx-renderer:");
+    EXPECT_THAT(text.substr(renderer, text.find("\nservices:") - renderer),
+                HasSubstr("\n  pull_policy: never"));
+}
+
 /// It listens on all of the container's addresses, but is published to one machine.
 TEST(Deploy, WhereNobodyIsAskedForATokenNoStrangersNameIsAnswered) {
     const std::string compose = textOf("compose.yaml");
