@@ -74,6 +74,21 @@ TEST(Deploy, PodsKeepLessThanTheirCacheHolds) {
                     HasSubstr("- --cache-size={{ .Values.data.keptFromUrls }}\n"));
 }
 
+/// Kubernetes refuses an upgrade that changes the pods of a job of the same name.
+TEST(Deploy, ImportsOfOtherPodsHaveAnotherName) {
+    const std::string text = textOf("helm/eyrie/templates/import.yaml");
+    EXPECT_THAT(text,
+                HasSubstr("$name := printf \"%s-import-%s\" .Release.Name (sha256sum $share "));
+    EXPECT_THAT(text, HasSubstr("\n  template: {{- $step.pod | nindent 4 }}\n---\n"))
+        << "pods have what is not in their name";
+    EXPECT_THAT(definitionOf("eyrie.labels"), HasSubstr(".Chart.AppVersion"));
+    const std::size_t pod = text.find("define \"eyrie.importPod\"");
+    ASSERT_NE(pod, std::string::npos);
+    EXPECT_THAT(text.substr(pod, text.find("\n{{- end }}\n", pod) - pod),
+                Not(HasSubstr("\"eyrie.labels\"")))
+        << "each version imports anew";
+}
+
 TEST(Deploy, ComposeGivesEachCommandOptionsThatItHas) {
     const std::string text = textOf("compose.yaml");
     const std::regex command("command: \\[(\\w+), ([^\\n]*)\\]");
