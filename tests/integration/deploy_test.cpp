@@ -89,6 +89,20 @@ TEST(Deploy, ImportsOfOtherPodsHaveAnotherName) {
         << "each version imports anew";
 }
 
+/// A runtime of NVIDIA that is the node's default gives GPUs by this variable; the image asks for
+/// all.
+TEST(Deploy, PodsThatAskForNoGpuGetNone) {
+    EXPECT_THAT(textOf("Dockerfile"), HasSubstr("NVIDIA_VISIBLE_DEVICES=all"));
+    EXPECT_THAT(definitionOf("eyrie.withoutGpu"),
+                HasSubstr("- { name: NVIDIA_VISIBLE_DEVICES, value: void }\n"));
+    const std::string templates = "helm/eyrie/templates/";
+    const std::string without = " env: {{- include \"eyrie.withoutGpu\" . | nindent ";
+    EXPECT_THAT(textOf(templates + "coordinator.yaml"), HasSubstr(without));
+    EXPECT_THAT(textOf(templates + "import.yaml"), HasSubstr(without));
+    EXPECT_THAT(textOf(templates + "renderers.yaml"),
+                HasSubstr("{{- if not .Values.renderer.gpu.count }}\n         " + without));
+}
+
 TEST(Deploy, ComposeGivesEachCommandOptionsThatItHas) {
     const std::string text = textOf("compose.yaml");
     const std::regex command("command: \\[(\\w+), ([^\\n]*)\\]");
