@@ -114,6 +114,21 @@ TEST(Deploy, ComposeGivesEachCommandOptionsThatItHas) {
     EXPECT_EQ(commands, 2);
 }
 
+/// `eyrie health` asks by TLS where its own environment says so; it sees no other process's
+/// options.
+TEST(Deploy, ComposeTellsOfTlsByVariablesThatTheHealthCheckReads) {
+    const std::string text = textOf("compose.yaml");
+    EXPECT_THAT(textOf("Dockerfile"), HasSubstr("CMD [\"eyrie\", \"health\"]"));
+    for (const char* name :
+         {"EYRIE_TOKEN_FILE", "EYRIE_TLS_CERT", "EYRIE_TLS_KEY", "EYRIE_TLS_CA", "EYRIE_TLS_NAME"})
+        EXPECT_THAT(text, HasSubstr(name));
+    EXPECT_THAT(text, Not(HasSubstr("--t"))) << "an option that no health check would know of";
+    const std::string tls = "--tls-cert --tls-key --tls-ca --tls-name";
+    expectKnown({"health"}, tls, "the health check");
+    for (const char* command : {"coordinator", "renderer"})
+        expectKnown({command}, "--token-file " + tls, command);
+}
+
 /// Compose builds for all services at once, and fails where two of them make the same image.
 TEST(Deploy, ComposeBuildsTheImageOnce) {
     const std::string text = textOf("compose.yaml");
