@@ -152,6 +152,15 @@ TEST(Deploy, WhereNobodyIsAskedForATokenNoStrangersNameIsAnswered) {
                           "            - --local-names-only\n"));
 }
 
+/// No registry has the image that the chart asks for by itself.
+TEST(Deploy, ReadmeSaysWhichImageTheChartTakes) {
+    const std::string readme = test::sourceText("README.md");
+    std::smatch install;
+    ASSERT_TRUE(std::regex_search(readme, install, std::regex("helm install [^`]*")));
+    for (const char* name : {"image.repository=", "image.tag="})
+        EXPECT_THAT(install.str(), HasSubstr(name));
+}
+
 TEST(Deploy, TheChartIsOfThisVersion) {
     const std::string chart = textOf("helm/eyrie/Chart.yaml");
     const std::string said = test::eyrie({"--version"}).output;
