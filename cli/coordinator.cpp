@@ -100,6 +100,7 @@ void addCoordinator(CLI::App& app, Run& run) {
     addConfigOptions(*command, options->config);
     addDoorOptions(*command, options->door);
     addPeerOptions(*command, options->door);
+    addLocalNamesOption(*command, options->door);
     addVideoOption(*command, options->h264);
     addCacheOptions(*command, options->cache);
     command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");

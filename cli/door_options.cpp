@@ -65,6 +65,12 @@ void addPeerOptions(CLI::App& command, DoorOptions& options) {
         ->type_name("NAME");
 }
 
+void addLocalNamesOption(CLI::App& command, DoorOptions& options) {
+    command.add_flag("--local-names-only", options.localNamesOnly,
+                     "Answer browsers that ask for an address or localhost, not for another name: "
+                     "for a port that is published to one machine alone, as a container's");
+}
+
 CLI::Option* addReflectionOption(CLI::App& command, bool& reflection) {
     return command.add_flag("--grpc-reflection", reflection,
                             "Let gRPC tools ask which calls there are, without a token");
@@ -73,6 +79,7 @@ CLI::Option* addReflectionOption(CLI::App& command, bool& reflection) {
 absl::StatusOr<Doors> doorsOf(const DoorOptions& options) {
     Doors doors;
     doors.insecure = options.insecure;
+    doors.localNamesOnly = options.localNamesOnly;
     ASSIGN_OR_RETURN(doors.tls, tlsOf(options.tls));
     if (!options.tlsName.empty() && !doors.tls)
         return absl::InvalidArgumentError("--tls-name goes with --tls-cert and --tls-key");

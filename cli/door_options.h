@@ -20,6 +20,7 @@ struct DoorOptions {
     access::TlsFiles tls;
     std::string tlsName;  ///< of the other processes' certificates
     bool insecure = false;
+    bool localNamesOnly = false;
 };
 
 /// --token-file, --tls-cert, --tls-key, --insecure.
@@ -27,6 +28,9 @@ void addDoorOptions(CLI::App& command, DoorOptions& options);
 
 /// Between processes: --tls-ca, --tls-name.
 void addPeerOptions(CLI::App& command, DoorOptions& options);
+
+/// Of the door for browsers: --local-names-only.
+void addLocalNamesOption(CLI::App& command, DoorOptions& options);
 
 /// --grpc-reflection.
 CLI::Option* addReflectionOption(CLI::App& command, bool& reflection);
@@ -37,6 +41,7 @@ struct Doors {
     std::optional<access::TlsFiles> tls;  ///< nothing: not encrypted
     wire::Security security;              ///< of the gRPC door
     bool insecure = false;
+    bool localNamesOnly = false;  ///< http::ServerOptions::localNamesOnly
 };
 
 /// Errors: InvalidArgument, naming the option.

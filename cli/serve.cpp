@@ -197,6 +197,7 @@ void addServe(CLI::App& app, Run& run) {
     addConfigOptions(*command, options->config);
     addDoorOptions(*command, options->door);
     addPeerOptions(*command, options->door);
+    addLocalNamesOption(*command, options->door);
     addVideoOption(*command, options->h264);
     addDrawingOptions(*command, options->drawing);
     command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");

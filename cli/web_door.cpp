@@ -42,6 +42,7 @@ absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& lis
                                  "--listen"));
     http::ServerOptions options;
     options.gate = doors.gate;
+    options.localNamesOnly = doors.localNamesOnly;
     options.tls = doors.tls;
     options.host = address.host;
     options.port = address.port;

@@ -82,13 +82,14 @@ std::optional<Response> Access::answer(const Asked& asked, const coordinator::Fr
     const std::string_view path = pathOf(asked.target);
     // A page whose name leads here reads what this server answers as its own. Browsers say the
     // name.
-    if (path != "/healthz" && !asked.host.empty() && !isAllowedOrigin("", asked.host, isLoopback_))
+    if (path != "/healthz" && !asked.host.empty() &&
+        !isAllowedOrigin("", asked.host, localNamesOnly_))
         return problemResponse(
             absl::PermissionDeniedError("Host is the name of another machine, and this server is "
                                         "for its own machine; ask under "
                                         "its address or as localhost"));
     // A cookie comes with what any page asks for: only this server's own may change something.
-    if (!reads(asked.method) && !isAllowedOrigin(asked.origin, asked.host, isLoopback_))
+    if (!reads(asked.method) && !isAllowedOrigin(asked.origin, asked.host, localNamesOnly_))
         return problemResponse(
             absl::PermissionDeniedError("pages of other sites may not change anything here"));
     if (path == "/login")

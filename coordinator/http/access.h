@@ -39,14 +39,14 @@ std::optional<access::Role> roleFor(std::string_view method, std::string_view pa
 /// Used on the server's thread only.
 class Access {
 public:
-    /// Without a gate everybody may do everything. `isLoopback` as
-    /// in Context; `isSecure`: over TLS.
-    Access(std::shared_ptr<access::Gate> gate, bool isLoopback, bool isSecure)
-        : gate_(std::move(gate)), isLoopback_(isLoopback), isSecure_(isSecure) {}
+    /// Without a gate everybody may do everything. `localNamesOnly` as in Context; `isSecure`:
+    /// over TLS.
+    Access(std::shared_ptr<access::Gate> gate, bool localNamesOnly, bool isSecure)
+        : gate_(std::move(gate)), localNamesOnly_(localNamesOnly), isSecure_(isSecure) {}
 
-    /// The answer to a request that is turned away (401, 403, also on loopback to one under a
-    /// stranger's name, 429), or to one that is answered
-    /// here: /login, and, to who shows no token, /readyz without what only `view` may know.
+    /// The answer to a request that is turned away (401, 403, also to one under a stranger's name,
+    /// 429), or to one that is answered here: /login, and, to who shows no token, /readyz without
+    /// what only `view` may know.
     std::optional<Response> answer(const Asked& asked, const coordinator::FrameSource& frames);
 
     /// The role of a request that answer() let in.
@@ -58,7 +58,7 @@ private:
     std::string cookieOf(std::string_view ticket, std::chrono::seconds life) const;
 
     const std::shared_ptr<access::Gate> gate_;
-    const bool isLoopback_;
+    const bool localNamesOnly_;
     const bool isSecure_;
 };
 

@@ -36,9 +36,8 @@ struct Context {
     ServerOptions options;
     StaticFiles files;
     coordinator::FrameSource& frames;
-    /// Reached from this machine alone, and asks nobody for a token: so no stranger's name may lead
-    /// a browser here.
-    bool isLoopback = true;
+    /// Meant for this machine alone: so no stranger's name may lead a browser here.
+    bool localNamesOnly = true;
     Access access;
     std::unique_ptr<Tls> tls;            ///< null: not encrypted
     Crowd crowd;                         ///< who is connected

@@ -319,7 +319,7 @@ private:
         const std::string_view origin =
             view(request.count(http::field::origin) == 0 ? request[kPageOrigin]
                                                          : request[http::field::origin]);
-        if (!isAllowedOrigin(origin, host, context_.isLoopback))
+        if (!isAllowedOrigin(origin, host, context_.localNamesOnly))
             return refuse(strangersPage(origin, host));
         auto joining = stream::joiningOf(view(request.target()));
         if (!joining.ok())
@@ -360,7 +360,7 @@ private:
     void call(const Request& request) {
         namespace http = beast::http;
         if (!isAllowedOrigin(view(request[http::field::origin]), view(request[http::field::host]),
-                             context_.isLoopback))
+                             context_.localNamesOnly))
             return reply(problemResponse(403, "pages of other sites may not call this server"),
                          false);
         if (const auto refused = context_.options.api->refusal(address_))

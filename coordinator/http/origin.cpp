@@ -32,8 +32,8 @@ bool isAddressOrLocalhost(std::string_view name) {
 
 }  // namespace
 
-bool isAllowedOrigin(std::string_view origin, std::string_view host, bool isLoopback) {
-    if (isLoopback && !isAddressOrLocalhost(hostName(host)))
+bool isAllowedOrigin(std::string_view origin, std::string_view host, bool localNamesOnly) {
+    if (localNamesOnly && !isAddressOrLocalhost(hostName(host)))
         return false;
     if (origin.empty())
         return true;

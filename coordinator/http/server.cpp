@@ -67,13 +67,13 @@ absl::StatusOr<tcp::endpoint> endpointOf(const ServerOptions& options) {
 
 class Server::Impl {
 public:
-    Impl(const ServerOptions& options, StaticFiles files, std::unique_ptr<Tls> tls, bool isLoopback,
-         coordinator::FrameSource& frames)
+    Impl(const ServerOptions& options, StaticFiles files, std::unique_ptr<Tls> tls,
+         bool localNamesOnly, coordinator::FrameSource& frames)
         : context_{options,
                    std::move(files),
                    frames,
-                   isLoopback,
-                   Access(options.gate, isLoopback, tls != nullptr),
+                   localNamesOnly,
+                   Access(options.gate, localNamesOnly, tls != nullptr),
                    std::move(tls),
                    Crowd(options.limits),
                    options.telemetry ? options.telemetry : std::make_shared<observe::Telemetry>(),
@@ -204,9 +204,10 @@ absl::StatusOr<std::unique_ptr<Server>> Server::start(const ServerOptions& optio
     if (options.tls) {
         ASSIGN_OR_RETURN(tls, Tls::open(*options.tls));
     }
-    const bool isLoopback = endpoint.address().is_loopback() && options.gate == nullptr;
+    const bool localNamesOnly =
+        options.localNamesOnly || (endpoint.address().is_loopback() && options.gate == nullptr);
     auto impl =
-        std::make_unique<Impl>(options, std::move(files), std::move(tls), isLoopback, frames);
+        std::make_unique<Impl>(options, std::move(files), std::move(tls), localNamesOnly, frames);
     RETURN_IF_ERROR(impl->listen(endpoint));
     return std::unique_ptr<Server>(new Server(std::move(impl)));
 }

@@ -46,6 +46,8 @@ struct ServerOptions {
     int messagesPerSecond = 400;  ///< of one viewer; more wait (message_rate.h)
     /// Who comes in; null: everybody who can reach the address.
     std::shared_ptr<access::Gate> gate = {};
+    /// Answers under no name but an address or "localhost", as on loopback without a gate.
+    bool localNamesOnly = false;
     std::optional<access::TlsFiles> tls = {};  ///< HTTPS instead of HTTP
     /// How long viewers and calls may go on when the server stops, to get what they asked for.
     std::chrono::milliseconds drainTimeout{2'500};

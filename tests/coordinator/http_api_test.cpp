@@ -291,6 +291,25 @@ TEST_F(HttpApi, NothingIsReadUnderAStrangersName) {
     EXPECT_THAT(asked("/readyz", "127.0.0.1:80"), StartsWith("HTTP/1.1 200"));
 }
 
+/// As of a container's port that its machine publishes to itself alone.
+TEST_F(HttpApi, OnAllAddressesStrangersNamesAreRefusedWhereItIsAskedFor) {
+    const auto asked = [this](const std::string& line, const std::string& host) {
+        return receive(send(
+            fmt::format("{} HTTP/1.1\r\nHost: {}\r\nOrigin: http://{}\r\nConnection: close\r\n\r\n",
+                        line, host, host)));
+    };
+    ServerOptions options;
+    options.host = "0.0.0.0";
+    start(options);
+    EXPECT_THAT(asked("GET /api/v1/status", "viz.example"), StartsWith("HTTP/1.1 200"));
+    options.localNamesOnly = true;
+    start(options);
+    EXPECT_THAT(asked("GET /api/v1/status", "evil.example"), StartsWith("HTTP/1.1 403"));
+    EXPECT_THAT(asked("POST /api/v1/imports", "evil.example"), StartsWith("HTTP/1.1 403"));
+    for (const char* host : {"localhost", "127.0.0.1:80", "[::1]:80"})
+        EXPECT_THAT(asked("GET /api/v1/status", host), StartsWith("HTTP/1.1 200")) << host;
+}
+
 /// RFC 9112, 3.2.2: what a client sends that takes this server for a proxy.
 TEST_F(HttpApi, TargetsInAbsoluteFormAreAnsweredAsOthers) {
     const std::string here = fmt::format("http://127.0.0.1:{}", port_);

@@ -74,6 +74,35 @@ TEST(Deploy, PodsKeepLessThanTheirCacheHolds) {
                     HasSubstr("- --cache-size={{ .Values.data.keptFromUrls }}\n"));
 }
 
+/// Kubernetes refuses an upgrade that changes the pods of a job of the same name.
+TEST(Deploy, ImportsOfOtherPodsHaveAnotherName) {
+    const std::string text = textOf("helm/eyrie/templates/import.yaml");
+    EXPECT_THAT(text,
+                HasSubstr("$name := printf \"%s-import-%s\" .Release.Name (sha256sum $share "));
+    EXPECT_THAT(text, HasSubstr("\n  template: {{- $step.pod | nindent 4 }}\n---\n"))
+        << "pods have what is not in their name";
+    EXPECT_THAT(definitionOf("eyrie.labels"), HasSubstr(".Chart.AppVersion"));
+    const std::size_t pod = text.find("define \"eyrie.importPod\"");
+    ASSERT_NE(pod, std::string::npos);
+    EXPECT_THAT(text.substr(pod, text.find("\n{{- end }}\n", pod) - pod),
+                Not(HasSubstr("\"eyrie.labels\"")))
+        << "each version imports anew";
+}
+
+/// A runtime of NVIDIA that is the node's default gives GPUs by this variable; the image asks for
+/// all.
+TEST(Deploy, PodsThatAskForNoGpuGetNone) {
+    EXPECT_THAT(textOf("Dockerfile"), HasSubstr("NVIDIA_VISIBLE_DEVICES=all"));
+    EXPECT_THAT(definitionOf("eyrie.withoutGpu"),
+                HasSubstr("- { name: NVIDIA_VISIBLE_DEVICES, value: void }\n"));
+    const std::string templates = "helm/eyrie/templates/";
+    const std::string without = " env: {{- include \"eyrie.withoutGpu\" . | nindent ";
+    EXPECT_THAT(textOf(templates + "coordinator.yaml"), HasSubstr(without));
+    EXPECT_THAT(textOf(templates + "import.yaml"), HasSubstr(without));
+    EXPECT_THAT(textOf(templates + "renderers.yaml"),
+                HasSubstr("{{- if not .Values.renderer.gpu.count }}\n         " + without));
+}
+
 TEST(Deploy, ComposeGivesEachCommandOptionsThatItHas) {
     const std::string text = textOf("compose.yaml");
     const std::regex command("command: \\[(\\w+), ([^\\n]*)\\]");
@@ -83,6 +112,53 @@ TEST(Deploy, ComposeGivesEachCommandOptionsThatItHas) {
         ++commands;
     }
     EXPECT_EQ(commands, 2);
+}
+
+/// `eyrie health` asks by TLS where its own environment says so; it sees no other process's
+/// options.
+TEST(Deploy, ComposeTellsOfTlsByVariablesThatTheHealthCheckReads) {
+    const std::string text = textOf("compose.yaml");
+    EXPECT_THAT(textOf("Dockerfile"), HasSubstr("CMD [\"eyrie\", \"health\"]"));
+    for (const char* name :
+         {"EYRIE_TOKEN_FILE", "EYRIE_TLS_CERT", "EYRIE_TLS_KEY", "EYRIE_TLS_CA", "EYRIE_TLS_NAME"})
+        EXPECT_THAT(text, HasSubstr(name));
+    EXPECT_THAT(text, Not(HasSubstr("--t"))) << "an option that no health check would know of";
+    const std::string tls = "--tls-cert --tls-key --tls-ca --tls-name";
+    expectKnown({"health"}, tls, "the health check");
+    for (const char* command : {"coordinator", "renderer"})
+        expectKnown({command}, "--token-file " + tls, command);
+}
+
+/// Compose builds for all services at once, and fails where two of them make the same image.
+TEST(Deploy, ComposeBuildsTheImageOnce) {
+    const std::string text = textOf("compose.yaml");
+    const std::size_t build = text.find(" build: ");
+    EXPECT_EQ(text.find(" build: ", build + 1), std::string::npos);
+    EXPECT_GT(build, text.find("\n  coordinator:\n"));
+    EXPECT_LT(build, text.find("\n  renderer-1: "));
+    const std::size_t renderer = text.find("\nx-renderer:");
+    EXPECT_THAT(text.substr(renderer, text.find("\nservices:") - renderer),
+                HasSubstr("\n  pull_policy: never"));
+}
+
+/// It listens on all of the container's addresses, but is published to one machine.
+TEST(Deploy, WhereNobodyIsAskedForATokenNoStrangersNameIsAnswered) {
+    const std::string compose = textOf("compose.yaml");
+    std::smatch command;
+    ASSERT_TRUE(std::regex_search(compose, command, std::regex("command: \\[coordinator,[^\n]*")));
+    EXPECT_THAT(command.str(), HasSubstr(" --insecure, --local-names-only,"));
+    EXPECT_THAT(textOf("helm/eyrie/templates/coordinator.yaml"),
+                HasSubstr("{{- if not (or .Values.access.tokenSecret .Values.access.tlsSecret) }}\n"
+                          "            - --local-names-only\n"));
+}
+
+/// No registry has the image that the chart asks for by itself.
+TEST(Deploy, ReadmeSaysWhichImageTheChartTakes) {
+    const std::string readme = test::sourceText("README.md");
+    std::smatch install;
+    ASSERT_TRUE(std::regex_search(readme, install, std::regex("helm install [^`]*")));
+    for (const char* name : {"image.repository=", "image.tag="})
+        EXPECT_THAT(install.str(), HasSubstr(name));
 }
 
 TEST(Deploy, TheChartIsOfThisVersion) {

@@ -119,6 +119,21 @@ TEST_F(Doors, OpenToRenderersAndPagesThatHaveATokenAndToNobodyElse) {
     }
 }
 
+TEST_F(Doors, OfPublishedPortsAnswerToNoStrangersName) {
+    for (const std::vector<std::string>& program :
+         {std::vector<std::string>{"serve"}, {"coordinator", "--grpc", "127.0.0.1:0"}}) {
+        std::vector<std::string> command = program;
+        command.insert(command.end(),
+                       {"--listen", "0.0.0.0:0", "--insecure", "--local-names-only"});
+        test::Process server(test::eyrieCommand(command), environment());
+        ASSERT_TRUE(server.waitForOutput("/\n", seconds(120))) << server.errors();
+        const auto web =
+            static_cast<std::uint16_t>(std::stoi(portAfter(server.output(), "Eyrie is at")));
+        EXPECT_EQ(test::httpGet(web, "/api/v1/status")->status, 200);
+        EXPECT_EQ(test::httpGet(web, "http://evil.example/api/v1/status")->status, 403);
+    }
+}
+
 /// The command line's part that shows `files`.
 std::vector<std::string> showing(const access::TlsFiles& files) {
     return {"--tls-cert", files.certificate, "--tls-key", files.key, "--tls-ca", files.authority};

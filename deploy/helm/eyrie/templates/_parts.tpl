@@ -32,6 +32,11 @@ envFrom:
 {{- end }}
 {{- end }}
 
+{{/* The image asks for all GPUs, which it gets where NVIDIA's runtime is the node's default. */}}
+{{- define "eyrie.withoutGpu" -}}
+- { name: NVIDIA_VISIBLE_DEVICES, value: void }
+{{- end }}
+
 {{/* Who may come in. */}}
 {{- define "eyrie.access" -}}
 {{- if .Values.access.tokenSecret -}}
