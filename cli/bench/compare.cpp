@@ -23,9 +23,12 @@ std::size_t leftOut(double n, double m) {
         std::max(0.0, std::floor(n * m / 2 - kOneInTwoHundred * spread - 0.5)));
 }
 
-/// Orders in which n and m values may come, C(n + m, n).
-double orders(double n, double m) {
-    return std::exp(std::lgamma(n + m + 1) - std::lgamma(n + 1) - std::lgamma(m + 1));
+/// Of an interval that leaves out none of n m ratios: it misses in 2 of the orders in which n and m
+/// values may come, C(n + m, n).
+double confidenceOfAll(double n, double m) {
+    const double orders =
+        std::exp(std::lgamma(n + m + 1) - std::lgamma(n + 1) - std::lgamma(m + 1));
+    return 1 - 2 / orders;
 }
 
 template <typename Select>
@@ -43,6 +46,22 @@ Verdict verdictOf(const Ratio& ratio) {
     return ratio.high < 1 ? Verdict::Less : Verdict::WithinNoise;
 }
 
+/// Of passes that have no ratio, as some are 0 or without a bound: whether all of one come before
+/// all of the other.
+Verdict verdictOfOrder(const std::vector<double>& a, const std::vector<double>& b) {
+    const auto [leastA, mostA] = std::ranges::minmax(a);
+    const auto [leastB, mostB] = std::ranges::minmax(b);
+    if (std::min(leastA, leastB) == std::max(mostA, mostB))
+        return Verdict::Equal;
+    const auto n = static_cast<double>(a.size());
+    const auto m = static_cast<double>(b.size());
+    if (confidenceOfAll(n, m) < kLeastConfidence)
+        return Verdict::TooFewPasses;
+    if (mostA < leastB)
+        return Verdict::More;
+    return mostB < leastA ? Verdict::Less : Verdict::WithinNoise;
+}
+
 /// `shown` is of all of a run, `select` of a pass.
 template <typename Shown, typename Select>
 Figure ofPasses(const char* name, const char* unit, const WrittenRun& a, const WrittenRun& b,
@@ -51,12 +70,24 @@ Figure ofPasses(const char* name, const char* unit, const WrittenRun& a, const W
     const std::vector<double> inA = passesOf(a, select);
     const std::vector<double> inB = passesOf(b, select);
     const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
-    if (inA.empty() || inB.empty() || !std::ranges::all_of(inA, positive) ||
-        !std::ranges::all_of(inB, positive))
+    if (inA.empty() || inB.empty())
         return result;
+    if (!std::ranges::all_of(inA, positive) || !std::ranges::all_of(inB, positive)) {
+        result.verdict = verdictOfOrder(inA, inB);
+        return result;
+    }
     result.ratio = ratioOf(inA, inB);
     result.verdict = verdictOf(*result.ratio);
     return result;
+}
+
+/// The same of errors, triangles or points, which passes of old reports do not tell.
+template <typename Shown, typename Select>
+Figure ofDrawn(const char* name, const char* unit, const WrittenRun& a, const WrittenRun& b,
+               const Shown& shown, const Select& select) {
+    if (!a.passesTellDrawn || !b.passesTellDrawn)
+        return {name, unit, shown(a), shown(b), {}, Verdict::TooFewPasses};
+    return ofPasses(name, unit, a, b, shown, select);
 }
 
 Figure ofTimes(const char* name, double Percentiles::*figure, const WrittenRun& a,
@@ -119,18 +150,18 @@ void addDrawn(const WrittenRun& a, const WrittenRun& b, double countNoise,
 
 /// The same of what does not repeat: by how passes spread.
 void addDrawnAnew(const WrittenRun& a, const WrittenRun& b, std::vector<Figure>& figures) {
-    figures.push_back(ofPasses(
+    figures.push_back(ofDrawn(
         "error promised, p95", "px", a, b,
         [](const WrittenRun& run) {
             return quantile(passesOf(run, [](auto& pass) { return pass.tauP95; }), 0.5);
         },
         [](const PassSummary& pass) { return pass.tauP95; }));
     figures.push_back(once("frames over tau", "", a.framesBeyond, b.framesBeyond));
-    figures.push_back(ofPasses(
+    figures.push_back(ofDrawn(
         "triangles, mean", "", a, b, [](const WrittenRun& run) { return run.trianglesMean; },
         [](const PassSummary& pass) { return pass.triangles; }));
     if (a.pointsMean > 0 || b.pointsMean > 0)
-        figures.push_back(ofPasses(
+        figures.push_back(ofDrawn(
             "points, mean", "", a, b, [](const WrittenRun& run) { return run.pointsMean; },
             [](const PassSummary& pass) { return pass.points; }));
     addMeasured(a, b, once, figures);
@@ -195,7 +226,7 @@ Ratio ratioOf(const std::vector<double>& a, const std::vector<double>& b) {
     const std::size_t k = leftOut(n, m);
     const std::size_t last = ratios.size() - 1;
     return {(ratios[last / 2] + ratios[(last + 1) / 2]) / 2, ratios[k], ratios[last - k],
-            k == 0 ? 1 - 2 / orders(n, m) : 0.99};
+            k == 0 ? confidenceOfAll(n, m) : 0.99};
 }
 
 absl::StatusOr<Comparison> compare(WrittenReport a, WrittenReport b, bool force) {

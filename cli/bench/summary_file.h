@@ -20,8 +20,9 @@ struct WrittenRun {
     std::string compound;
     int framesInFlight = 1;
     Percentiles frame;
-    /// Errors, triangles and points of each are 0 where a report is from before they were told.
     std::vector<PassSummary> passes;
+    /// Whether these have errors, triangles and points: reports of before have 0 for them.
+    bool passesTellDrawn = true;
     double firstPassMedian = 0;
     double trianglesMean = 0;
     double pointsMean = 0;

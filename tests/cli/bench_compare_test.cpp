@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -180,6 +181,60 @@ TEST_F(CompareReports, WhatDoesNotRepeatIsJudgedByHowPassesSpread) {
         ASSERT_TRUE(more.ok()) << more.status();
         EXPECT_EQ(verdictOf(*more, "error promised, p95"), Verdict::More);
         EXPECT_EQ(verdictOf(*more, "triangles, mean"), Verdict::More);
+    }
+}
+
+/// As reportOfFreeTau at a frame time, but of the same error and points in every frame.
+Report reportPromising(double tauAchieved, std::uint64_t points = 1, int passes = 5) {
+    Report report = reportTaking(20, passes);
+    for (BenchRun& run : report.runs) {
+        run.budgetMilliseconds = 33;
+        for (PlayedFrame& frame : run.played.frames) {
+            frame.statistics.tauAchievedPixels = tauAchieved;
+            frame.statistics.points = points;
+        }
+    }
+    return report;
+}
+
+TEST_F(CompareReports, WhatIsZeroOrWithoutABoundIsJudgedByTheOrderOfPasses) {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    const auto promised = [&](double a, double b, int passes = 5) {
+        const auto both =
+            compared(reportPromising(a, 1, passes), reportPromising(b, 1, passes)).value();
+        return verdictOf(both, "error promised, p95");
+    };
+    EXPECT_EQ(promised(0.9, kNone), Verdict::More);
+    EXPECT_EQ(promised(kNone, 0.9), Verdict::Less);
+    EXPECT_EQ(promised(0.9, kNone, 3), Verdict::TooFewPasses);
+    EXPECT_EQ(promised(kNone, kNone), Verdict::Equal);
+    EXPECT_EQ(promised(0, 0), Verdict::Equal);
+    Report some = reportPromising(0.9);
+    for (BenchRun& run : some.runs)
+        for (PlayedFrame& frame : run.played.frames)
+            if (frame.pass == 2)
+                frame.statistics.tauAchievedPixels = kNone;
+    EXPECT_EQ(verdictOf(compared(reportPromising(0.9), some).value(), "error promised, p95"),
+              Verdict::WithinNoise);
+    const auto lost = compared(reportPromising(0.9), reportPromising(kNone));
+    EXPECT_EQ(countBeyondNoise(*lost), 2) << "one a run: " << table(*lost);
+    const auto points = compared(reportPromising(0.9, 0), reportPromising(0.9, 500));
+    EXPECT_EQ(verdictOf(*points, "points, mean"), Verdict::More);
+}
+
+TEST_F(CompareReports, PassesOfBeforeErrorsWereToldOfEachAreNotJudgedByThem) {
+    std::string old = summaryJson(reportPromising(0.9));
+    for (std::size_t at = 0; (at = old.find("\"tauP95\"", at)) != std::string::npos; ++at)
+        old.replace(at, 8, "\"before\"");
+    const auto a = readReport(folder_.write("old.json", old));
+    ASSERT_TRUE(a.ok()) << a.status();
+    for (const auto& [before, after] :
+         {std::pair(*a, *a), {*a, *written(reportPromising(0.9), "new.json")}}) {
+        const auto both = compare(before, after, false);
+        ASSERT_TRUE(both.ok()) << both.status();
+        EXPECT_EQ(verdictOf(*both, "error promised, p95"), Verdict::TooFewPasses);
+        EXPECT_EQ(verdictOf(*both, "triangles, mean"), Verdict::TooFewPasses);
+        EXPECT_EQ(countBeyondNoise(*both), 0);
     }
 }
 
