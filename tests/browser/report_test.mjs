@@ -135,6 +135,26 @@ try {
   eyrie("bench", "--compare", "near", "near", "-o", "compared");
   await browser.page.goto(pathToFileURL(join(folder, "compared/index.html")).href);
   check((await marks(browser.page, "#curve")).length === 4, "a comparison has both of each run");
+  const summary = readFileSync(join(folder, "near/summary.json"), "utf8");
+  const bounded = summary.replaceAll('"tauAchievedMax": null', '"tauAchievedMax": 0.9');
+  writeFileSync(join(folder, "bounded.json"), bounded);
+  for (const [a, b, colour] of [
+    ["bounded.json", "near", "bad"],
+    ["near", "bounded.json", "truth"],
+  ]) {
+    const table = eyrie("bench", "--compare", a, b, "-o", "lost").toString();
+    check(
+      /error promised, px +(0.9 +inf|inf +0.9) +(more|less)/.test(table),
+      "a table has no ratio where one has no bound",
+    );
+    await browser.page.goto(pathToFileURL(join(folder, "lost/index.html")).href);
+    const [, , ratio, , verdict] = await browser.page.$$eval(
+      "#numbers tr:has(th:text('error promised, px')) >> nth=0 >> td",
+      (cells) => cells.map((cell) => ({ words: cell.textContent, colour: cell.className })),
+    );
+    check(ratio.words === "–", `nor has the page, of ${a} and ${b}`);
+    check(verdict.colour === colour, `B is ${verdict.words}, which is ${colour}`);
+  }
   check(browser.errors.length === 0, `no page has an error: ${browser.errors.join("; ")}`);
 } finally {
   await browser.close();
