@@ -117,6 +117,20 @@ try {
   for (const place of ["#errors-says", "#curve-note"])
     check((await browser.page.textContent(place)).includes("1/256"), `${place} tells of it`);
 
+  const misplaced = readFileSync(join(folder, "fine/index.html"), "utf8")
+    .replace('"misplaced": 0', '"misplaced": 9')
+    .replace('"measuredWithinPromise": true', '"measuredWithinPromise": false');
+  writeFileSync(join(folder, "misplaced.html"), misplaced);
+  await browser.page.goto(pathToFileURL(join(folder, "misplaced.html")).href);
+  const [broken] = (await marks(browser.page, "#curve")).filter(({ words }) =>
+    words.includes("the worst pixel of"),
+  );
+  for (const words of [broken.words, await browser.page.textContent("#errors-says")])
+    check(
+      words.includes("9 holes, false hits or misplaced") && !words.includes("more than"),
+      "a promise broken by misplaced pixels is not one that a surface is beyond",
+    );
+
   eyrie("bench", "fine.eym", ...few, "--reference", "--reference-frames", "1", "-o", "one");
   await browser.page.goto(pathToFileURL(join(folder, "one/index.html")).href);
   const ends = await browser.page.$$eval("#errors svg text", (texts) =>

@@ -4,6 +4,19 @@
 /** "12 %" of its promise and what rasterisation rounds, of the worst pixel measured; nothing where there is no bound. */
 const shareOfPromise = (run) => (measuredPromiseOf(run) === null ? "" : `${number((100 * run.errorPx.max) / (measuredPromiseOf(run) + run.errorPx.rounded), 2)} %`);
 
+/** Holes, false hits and misplaced pixels of a run or a frame, in words; nothing where there are none. */
+function wrongPixelsOf({ holes, falseHits, misplaced }) {
+  const count = holes + falseHits + misplaced;
+  return count > 0 ? `${number(count)} holes, false hits or misplaced pixels` : "";
+}
+
+/** How a run breaks its promise, in words. */
+function breachOf(run) {
+  const { max, promised, rounded } = run.errorPx;
+  const isBeyond = !wrongPixelsOf(run) || (promised !== null && max > promised + rounded);
+  return [isBeyond && "more than was promised", wrongPixelsOf(run)].filter(Boolean).join("; ");
+}
+
 /** What is between the worst pixel measured and the promise: error that was not used. */
 function drawMeasured(svg, list, { x, y }) {
   const at = (run, error) => [x(error), y(run.frameMs.p50)];
@@ -23,7 +36,7 @@ function drawMeasured(svg, list, { x, y }) {
     svg.append(mark("circle", { cx: left, cy: level, r: 3.5, fill: "var(--panel)", stroke: "var(--truth)", "stroke-width": 1.75 }),
                explained(dot, `${run.label}: the worst pixel of ${run.framesMeasured} frames is ${number(run.errorPx.max)} px off,\n` +
                  `99 in 100 of any frame are within ${number(run.errorPx.p99)} px\n` +
-                 (broken ? "more than was promised" : `${shareOfPromise(run)} of the ${number(measuredPromiseOf(run))} px promised and the ${number(run.errorPx.rounded)} px that rasterisation rounds`)));
+                 (broken ? breachOf(run) : `${shareOfPromise(run)} of the ${number(measuredPromiseOf(run))} px promised and the ${number(run.errorPx.rounded)} px that rasterisation rounds`)));
   }
 }
 
