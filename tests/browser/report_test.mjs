@@ -102,6 +102,24 @@ try {
     "whose pictures are measured, and are off by a share of what they promised",
   );
 
+  // Away from the ball for most of the time: half of the frames promise nothing.
+  const look = (seconds, x) => ({ seconds, camera: { eye: [4, 0, 0], target: [x, 0, 0] } });
+  const keys = [look(0, 0), look(3, 0), look(3.01, 8), look(10, 8)];
+  writeFileSync(join(folder, "away.json"), JSON.stringify({ keys }));
+  bench("away.json", "--budget-ms", "1000", "--reference", "-o", "away");
+  const away = readFileSync(join(folder, "away/index.html"), "utf8");
+  check(away.includes('"tauAchieved": {"p50": 0,'), "a run of which most frames show nothing");
+  for (const [name, field] of [
+    ["as it is", /$^/g],
+    ["with measured frames that promise 0", /(?<="promised": )[\d.]+/g],
+    ["with 99 in 100 pixels off by 0", /(?<="p99": )[\d.]+(?=, "max": [\d.]+, "promised")/g],
+  ]) {
+    writeFileSync(join(folder, "none.html"), away.replaceAll(field, "0"));
+    await browser.page.goto(pathToFileURL(join(folder, "none.html")).href);
+    const drawn = await browser.page.innerHTML("#curve");
+    check(/circle/.test(drawn) && !/Infinity|NaN/.test(drawn), `is in the curve, ${name}`);
+  }
+
   eyrie("synth", "mesh", "--size", "2000", "--seed", "3", "-o", "fine.ply");
   eyrie("import", "mesh", "fine.ply", "-o", "fine.eym");
   const few = ["--tau", "1", "--frames", "4", "--repeats", "1", "--size", "320x240"];
