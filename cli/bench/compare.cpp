@@ -123,11 +123,6 @@ Figure once(const char* name, const char* unit, double a, double b) {
 /// tau follows from times; and of several renderers each looks closely at tiles of its own.
 bool repeats(const WrittenRun& run) { return run.budgetMilliseconds == 0 && run.renderers <= 1; }
 
-/// Of other frames errors are others.
-bool areOfTheSameFrames(const WrittenRun& a, const WrittenRun& b) {
-    return a.framesMeasured == b.framesMeasured;
-}
-
 /// `figure` is exact or once.
 void addMeasured(const WrittenRun& a, const WrittenRun& b,
                  Figure figure(const char*, const char*, double, double),
@@ -138,14 +133,14 @@ void addMeasured(const WrittenRun& a, const WrittenRun& b,
         figures.push_back(figure("error measured, worst", "px", *a.errorMax, *b.errorMax));
 }
 
-void addDrawn(const WrittenRun& a, const WrittenRun& b, double countNoise,
+void addDrawn(const WrittenRun& a, const WrittenRun& b, double countNoise, bool areFramesTheSame,
               std::vector<Figure>& figures) {
     figures.push_back(exact("error promised", "px", a.tauAchievedMax, b.tauAchievedMax));
     figures.push_back(exact("frames over tau", "", a.framesBeyond, b.framesBeyond));
     figures.push_back(counted("triangles, mean", countNoise, a.trianglesMean, b.trianglesMean));
     if (a.pointsMean > 0 || b.pointsMean > 0)
         figures.push_back(counted("points, mean", countNoise, a.pointsMean, b.pointsMean));
-    addMeasured(a, b, areOfTheSameFrames(a, b) ? exact : once, figures);
+    addMeasured(a, b, areFramesTheSame ? exact : once, figures);
 }
 
 /// The same of what does not repeat: by how passes spread.
@@ -167,12 +162,13 @@ void addDrawnAnew(const WrittenRun& a, const WrittenRun& b, std::vector<Figure>&
     addMeasured(a, b, once, figures);
 }
 
-std::vector<Figure> figuresOf(const WrittenRun& a, const WrittenRun& b, double countNoise) {
+std::vector<Figure> figuresOf(const WrittenRun& a, const WrittenRun& b, double countNoise,
+                              bool areFramesTheSame) {
     std::vector<Figure> figures = {ofTimes("frame, median", &Percentiles::p50, a, b),
                                    ofTimes("frame, p95", &Percentiles::p95, a, b),
                                    ofTimes("frame, p99", &Percentiles::p99, a, b)};
     if (repeats(a) && repeats(b))
-        addDrawn(a, b, countNoise, figures);
+        addDrawn(a, b, countNoise, areFramesTheSame, figures);
     else
         addDrawnAnew(a, b, figures);
     figures.push_back(once("first pass, median", "ms", a.firstPassMedian, b.firstPassMedian));
@@ -187,6 +183,17 @@ bool isSameKind(const WrittenRun& a, const WrittenRun& b) {
     const bool isSameTau = a.budgetMilliseconds == 0 || a.tauPixels == b.tauPixels;
     return a.label == b.label && isSameTau && a.renderers == b.renderers &&
            a.compound == b.compound;
+}
+
+/// Whether errors were measured of the same frames of the flight: of others they are others.
+bool areOfTheSameFrames(const WrittenRun& a, int framesOfA, const WrittenRun& b, int framesOfB) {
+    return framesOfA == framesOfB && a.framesJudged && a.framesJudged == b.framesJudged;
+}
+
+/// "6 of 120".
+std::string judgedOf(const WrittenRun& run, int frames) {
+    return fmt::format("{} of {}", run.framesJudged ? std::to_string(*run.framesJudged) : "some",
+                       frames);
 }
 
 std::string nameOf(const WrittenRun& run) {
@@ -249,13 +256,17 @@ absl::StatusOr<Comparison> compare(WrittenReport a, WrittenReport b, bool force)
     for (const WrittenRun& run : a.runs)
         for (const WrittenRun& other : b.runs)
             if (isSameKind(run, other)) {
+                const bool areFramesTheSame = areOfTheSameFrames(run, a.frames, other, b.frames);
                 comparison.runs.push_back(
-                    {run, other, figuresOf(run, other, countsRepeat ? 0 : kShareByOcclusion)});
-                if (run.errorP99 && other.errorP99 && !areOfTheSameFrames(run, other))
+                    {run, other,
+                     figuresOf(run, other, countsRepeat ? 0 : kShareByOcclusion,
+                               areFramesTheSame)});
+                if (run.errorP99 && other.errorP99 && !areFramesTheSame)
                     comparison.notes.push_back(fmt::format(
                         "{}: errors were measured of {} frames in {}, of {} in {}; those of other "
                         "frames are others",
-                        nameOf(run), run.framesMeasured, a.name, other.framesMeasured, b.name));
+                        nameOf(run), judgedOf(run, a.frames), a.name, judgedOf(other, b.frames),
+                        b.name));
                 if (run.framesInFlight != other.framesInFlight)
                     comparison.notes.push_back(fmt::format(
                         "{}: {} has {} frames in flight, {} {}; the times of frames "

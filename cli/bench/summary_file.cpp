@@ -122,7 +122,8 @@ WrittenRun runOf(const Field& field) {
     if (field.has("errorPx")) {
         run.errorP99 = field.at("errorPx").at("p99").number();
         run.errorMax = field.at("errorPx").at("max").number();
-        run.framesMeasured = field.at("framesMeasured").count();
+        if (field.has("framesJudged"))
+            run.framesJudged = field.at("framesJudged").count();
     }
     return run;
 }

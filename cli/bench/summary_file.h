@@ -34,7 +34,7 @@ struct WrittenRun {
     double peakResidentBytes = 0;
     std::optional<double> errorP99;  ///< pixels, where they were measured
     std::optional<double> errorMax;
-    int framesMeasured = 0;
+    std::optional<int> framesJudged;  ///< for these; none where a report is from before it was told
 };
 
 struct WrittenReport {

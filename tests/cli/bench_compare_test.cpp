@@ -145,9 +145,40 @@ TEST_F(CompareReports, ErrorsMeasuredOfOtherFramesAreNoDifference) {
     ASSERT_TRUE(more.ok()) << more.status();
     EXPECT_EQ(verdictOf(*more, "error measured, worst"), Verdict::NotRepeated);
     EXPECT_EQ(countBeyondNoise(*more), 0);
-    EXPECT_THAT(more->notes,
-                testing::Each(testing::ContainsRegex("measured of 6 frames in .*, of 24 in ")));
+    EXPECT_THAT(
+        more->notes,
+        testing::Each(testing::ContainsRegex("measured of 6 of 8 frames in .*, of 24 of 8 in ")));
     EXPECT_EQ(more->notes.size(), 2U);
+}
+
+TEST_F(CompareReports, ErrorsMeasuredOfAsManyFramesThatAreNotEmptyMayBeOfOthers) {
+    Report six = reportMeasuring(5, 0.6);
+    for (BenchRun& run : six.runs) run.measured->frames.insert(run.measured->frames.begin(), {{}});
+    const auto other = compared(reportMeasuring(5, 0.5), six);
+    ASSERT_TRUE(other.ok()) << other.status();
+    EXPECT_EQ(verdictOf(*other, "error measured, worst"), Verdict::NotRepeated);
+    EXPECT_THAT(other->notes,
+                testing::Each(testing::ContainsRegex("measured of 5 of 8 frames in .*, of 6 of ")));
+    EXPECT_EQ(other->notes.size(), 2U);
+
+    Report longer = reportMeasuring(5, 0.6);
+    longer.facts.frames = 16;
+    const auto forced = compared(reportMeasuring(5, 0.5), longer, true);
+    ASSERT_TRUE(forced.ok()) << forced.status();
+    EXPECT_EQ(verdictOf(*forced, "error measured, worst"), Verdict::NotRepeated);
+    EXPECT_THAT(forced->notes, testing::Contains(testing::ContainsRegex("5 of 16 in ")).Times(2));
+}
+
+TEST_F(CompareReports, OfErrorsOfBeforeNobodyKnowsOfWhichFramesTheyAre) {
+    std::string old = summaryJson(reportMeasuring(5, 0.5));
+    for (std::size_t at = 0; (at = old.find("framesJudged", at)) != std::string::npos; ++at)
+        old.replace(at, 12, "before");
+    const auto a = readReport(folder_.write("old.json", old));
+    ASSERT_TRUE(a.ok()) << a.status();
+    const auto both = compare(*a, *a, false);
+    ASSERT_TRUE(both.ok()) << both.status();
+    EXPECT_EQ(verdictOf(*both, "error measured, worst"), Verdict::NotRepeated);
+    EXPECT_THAT(both->notes, testing::Each(HasSubstr("measured of some of 8 frames in ")));
 }
 
 /// As reportTaking, at a frame time to hold or by two renderers; tau and triangles go up and down
