@@ -257,12 +257,12 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-/// Pixels of some pictures of the orbit that are not what the first leg draws.
+/// Pixels of `pictures` pictures of the orbit that are not what the first leg draws.
 absl::StatusOr<std::size_t> differentPixels(const std::vector<Leg>& legs, const fabric::Box& bounds,
-                                            const Options& options) {
+                                            const Options& options, int pictures) {
     std::size_t different = 0;
-    for (int i = 0; i < options.frames; i += std::max(1, options.frames / 8)) {
-        const FrameRequest view = viewOf(bounds, options, i);
+    for (int i = 0; i < pictures; ++i) {
+        const FrameRequest view = viewOf(bounds, options, options.frames * i / pictures);
         ASSIGN_OR_RETURN(const RenderedFrame expected, legs.front().way->draw(view));
         for (const Leg& leg : legs) {
             ASSIGN_OR_RETURN(const RenderedFrame frame, leg.way->draw(view));
@@ -309,8 +309,10 @@ absl::Status run(const Options& options) {
                options.scene.objects[0].path, options.width, options.height, options.tau,
                options.layout, options.frames, options.repetitions);
     print(legs, options);
-    ASSIGN_OR_RETURN(const std::size_t different, differentPixels(legs, info.bounds, options));
-    fmt::print("{} pixels of 8 pictures differ from those drawn here\n", different);
+    const int pictures = std::min(8, options.frames);
+    ASSIGN_OR_RETURN(const std::size_t different,
+                     differentPixels(legs, info.bounds, options, pictures));
+    fmt::print("{} pixels of {} pictures differ from those drawn here\n", different, pictures);
     return different == 0 ? absl::OkStatus()
                           : absl::InternalError("pictures differ from those drawn here");
 }

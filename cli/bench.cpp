@@ -76,13 +76,23 @@ bench::BenchFacts factsOf(const Options& options, const PictureSize& size) {
             cli::nameOf(options.occlusion)};
 }
 
+/// In their order, each once.
+template <typename T>
+std::vector<T> withoutRepeats(const std::vector<T>& values) {
+    std::vector<T> once;
+    for (const T& value : values)
+        if (std::ranges::find(once, value) == once.end())
+            once.push_back(value);
+    return once;
+}
+
 /// What each run asks of its frames: a tau, or a frame time, at which the finest of the taus is
 /// asked for.
 std::vector<bench::Asked> askedOf(const Options& options) {
     std::vector<bench::Asked> asked;
     if (options.budgets.empty() || options.hasTaus)
-        for (const double tau : options.taus) asked.push_back({tau});
-    for (const double budget : options.budgets)
+        for (const double tau : withoutRepeats(options.taus)) asked.push_back({tau});
+    for (const double budget : withoutRepeats(options.budgets))
         asked.push_back({*std::ranges::min_element(options.taus), budget});
     return asked;
 }
@@ -143,7 +153,7 @@ absl::StatusOr<std::vector<int>> renderersFor(const Options& options) {
     } else if (config.shown != coordinator::Shown{}) {
         std::ranges::replace(renderers, 0, 1);
     }
-    return renderers;
+    return withoutRepeats(renderers);
 }
 
 absl::Status runBench(const Options& options) {

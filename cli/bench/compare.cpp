@@ -23,9 +23,12 @@ std::size_t leftOut(double n, double m) {
         std::max(0.0, std::floor(n * m / 2 - kOneInTwoHundred * spread - 0.5)));
 }
 
-/// Orders in which n and m values may come, C(n + m, n).
-double orders(double n, double m) {
-    return std::exp(std::lgamma(n + m + 1) - std::lgamma(n + 1) - std::lgamma(m + 1));
+/// Of an interval that leaves out none of n m ratios: it misses in 2 of the orders in which n and m
+/// values may come, C(n + m, n).
+double confidenceOfAll(double n, double m) {
+    const double orders =
+        std::exp(std::lgamma(n + m + 1) - std::lgamma(n + 1) - std::lgamma(m + 1));
+    return 1 - 2 / orders;
 }
 
 template <typename Select>
@@ -43,6 +46,22 @@ Verdict verdictOf(const Ratio& ratio) {
     return ratio.high < 1 ? Verdict::Less : Verdict::WithinNoise;
 }
 
+/// Of passes that have no ratio, as some are 0 or without a bound: whether all of one come before
+/// all of the other.
+Verdict verdictOfOrder(const std::vector<double>& a, const std::vector<double>& b) {
+    const auto [leastA, mostA] = std::ranges::minmax(a);
+    const auto [leastB, mostB] = std::ranges::minmax(b);
+    if (std::min(leastA, leastB) == std::max(mostA, mostB))
+        return Verdict::Equal;
+    const auto n = static_cast<double>(a.size());
+    const auto m = static_cast<double>(b.size());
+    if (confidenceOfAll(n, m) < kLeastConfidence)
+        return Verdict::TooFewPasses;
+    if (mostA < leastB)
+        return Verdict::More;
+    return mostB < leastA ? Verdict::Less : Verdict::WithinNoise;
+}
+
 /// `shown` is of all of a run, `select` of a pass.
 template <typename Shown, typename Select>
 Figure ofPasses(const char* name, const char* unit, const WrittenRun& a, const WrittenRun& b,
@@ -51,12 +70,24 @@ Figure ofPasses(const char* name, const char* unit, const WrittenRun& a, const W
     const std::vector<double> inA = passesOf(a, select);
     const std::vector<double> inB = passesOf(b, select);
     const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
-    if (inA.empty() || inB.empty() || !std::ranges::all_of(inA, positive) ||
-        !std::ranges::all_of(inB, positive))
+    if (inA.empty() || inB.empty())
         return result;
+    if (!std::ranges::all_of(inA, positive) || !std::ranges::all_of(inB, positive)) {
+        result.verdict = verdictOfOrder(inA, inB);
+        return result;
+    }
     result.ratio = ratioOf(inA, inB);
     result.verdict = verdictOf(*result.ratio);
     return result;
+}
+
+/// The same of errors, triangles or points, which passes of old reports do not tell.
+template <typename Shown, typename Select>
+Figure ofDrawn(const char* name, const char* unit, const WrittenRun& a, const WrittenRun& b,
+               const Shown& shown, const Select& select) {
+    if (!a.passesTellDrawn || !b.passesTellDrawn)
+        return {name, unit, shown(a), shown(b), {}, Verdict::TooFewPasses};
+    return ofPasses(name, unit, a, b, shown, select);
 }
 
 Figure ofTimes(const char* name, double Percentiles::*figure, const WrittenRun& a,
@@ -92,11 +123,6 @@ Figure once(const char* name, const char* unit, double a, double b) {
 /// tau follows from times; and of several renderers each looks closely at tiles of its own.
 bool repeats(const WrittenRun& run) { return run.budgetMilliseconds == 0 && run.renderers <= 1; }
 
-/// Of other frames errors are others.
-bool areOfTheSameFrames(const WrittenRun& a, const WrittenRun& b) {
-    return a.framesMeasured == b.framesMeasured;
-}
-
 /// `figure` is exact or once.
 void addMeasured(const WrittenRun& a, const WrittenRun& b,
                  Figure figure(const char*, const char*, double, double),
@@ -107,41 +133,42 @@ void addMeasured(const WrittenRun& a, const WrittenRun& b,
         figures.push_back(figure("error measured, worst", "px", *a.errorMax, *b.errorMax));
 }
 
-void addDrawn(const WrittenRun& a, const WrittenRun& b, double countNoise,
+void addDrawn(const WrittenRun& a, const WrittenRun& b, double countNoise, bool areFramesTheSame,
               std::vector<Figure>& figures) {
     figures.push_back(exact("error promised", "px", a.tauAchievedMax, b.tauAchievedMax));
     figures.push_back(exact("frames over tau", "", a.framesBeyond, b.framesBeyond));
     figures.push_back(counted("triangles, mean", countNoise, a.trianglesMean, b.trianglesMean));
     if (a.pointsMean > 0 || b.pointsMean > 0)
         figures.push_back(counted("points, mean", countNoise, a.pointsMean, b.pointsMean));
-    addMeasured(a, b, areOfTheSameFrames(a, b) ? exact : once, figures);
+    addMeasured(a, b, areFramesTheSame ? exact : once, figures);
 }
 
 /// The same of what does not repeat: by how passes spread.
 void addDrawnAnew(const WrittenRun& a, const WrittenRun& b, std::vector<Figure>& figures) {
-    figures.push_back(ofPasses(
+    figures.push_back(ofDrawn(
         "error promised, p95", "px", a, b,
         [](const WrittenRun& run) {
             return quantile(passesOf(run, [](auto& pass) { return pass.tauP95; }), 0.5);
         },
         [](const PassSummary& pass) { return pass.tauP95; }));
     figures.push_back(once("frames over tau", "", a.framesBeyond, b.framesBeyond));
-    figures.push_back(ofPasses(
+    figures.push_back(ofDrawn(
         "triangles, mean", "", a, b, [](const WrittenRun& run) { return run.trianglesMean; },
         [](const PassSummary& pass) { return pass.triangles; }));
     if (a.pointsMean > 0 || b.pointsMean > 0)
-        figures.push_back(ofPasses(
+        figures.push_back(ofDrawn(
             "points, mean", "", a, b, [](const WrittenRun& run) { return run.pointsMean; },
             [](const PassSummary& pass) { return pass.points; }));
     addMeasured(a, b, once, figures);
 }
 
-std::vector<Figure> figuresOf(const WrittenRun& a, const WrittenRun& b, double countNoise) {
+std::vector<Figure> figuresOf(const WrittenRun& a, const WrittenRun& b, double countNoise,
+                              bool areFramesTheSame) {
     std::vector<Figure> figures = {ofTimes("frame, median", &Percentiles::p50, a, b),
                                    ofTimes("frame, p95", &Percentiles::p95, a, b),
                                    ofTimes("frame, p99", &Percentiles::p99, a, b)};
     if (repeats(a) && repeats(b))
-        addDrawn(a, b, countNoise, figures);
+        addDrawn(a, b, countNoise, areFramesTheSame, figures);
     else
         addDrawnAnew(a, b, figures);
     figures.push_back(once("first pass, median", "ms", a.firstPassMedian, b.firstPassMedian));
@@ -156,6 +183,17 @@ bool isSameKind(const WrittenRun& a, const WrittenRun& b) {
     const bool isSameTau = a.budgetMilliseconds == 0 || a.tauPixels == b.tauPixels;
     return a.label == b.label && isSameTau && a.renderers == b.renderers &&
            a.compound == b.compound;
+}
+
+/// Whether errors were measured of the same frames of the flight: of others they are others.
+bool areOfTheSameFrames(const WrittenRun& a, int framesOfA, const WrittenRun& b, int framesOfB) {
+    return framesOfA == framesOfB && a.framesJudged && a.framesJudged == b.framesJudged;
+}
+
+/// "6 of 120".
+std::string judgedOf(const WrittenRun& run, int frames) {
+    return fmt::format("{} of {}", run.framesJudged ? std::to_string(*run.framesJudged) : "some",
+                       frames);
 }
 
 std::string nameOf(const WrittenRun& run) {
@@ -195,7 +233,7 @@ Ratio ratioOf(const std::vector<double>& a, const std::vector<double>& b) {
     const std::size_t k = leftOut(n, m);
     const std::size_t last = ratios.size() - 1;
     return {(ratios[last / 2] + ratios[(last + 1) / 2]) / 2, ratios[k], ratios[last - k],
-            k == 0 ? 1 - 2 / orders(n, m) : 0.99};
+            k == 0 ? confidenceOfAll(n, m) : 0.99};
 }
 
 absl::StatusOr<Comparison> compare(WrittenReport a, WrittenReport b, bool force) {
@@ -218,13 +256,17 @@ absl::StatusOr<Comparison> compare(WrittenReport a, WrittenReport b, bool force)
     for (const WrittenRun& run : a.runs)
         for (const WrittenRun& other : b.runs)
             if (isSameKind(run, other)) {
+                const bool areFramesTheSame = areOfTheSameFrames(run, a.frames, other, b.frames);
                 comparison.runs.push_back(
-                    {run, other, figuresOf(run, other, countsRepeat ? 0 : kShareByOcclusion)});
-                if (run.errorP99 && other.errorP99 && !areOfTheSameFrames(run, other))
+                    {run, other,
+                     figuresOf(run, other, countsRepeat ? 0 : kShareByOcclusion,
+                               areFramesTheSame)});
+                if (run.errorP99 && other.errorP99 && !areFramesTheSame)
                     comparison.notes.push_back(fmt::format(
                         "{}: errors were measured of {} frames in {}, of {} in {}; those of other "
                         "frames are others",
-                        nameOf(run), run.framesMeasured, a.name, other.framesMeasured, b.name));
+                        nameOf(run), judgedOf(run, a.frames), a.name, judgedOf(other, b.frames),
+                        b.name));
                 if (run.framesInFlight != other.framesInFlight)
                     comparison.notes.push_back(fmt::format(
                         "{}: {} has {} frames in flight, {} {}; the times of frames "

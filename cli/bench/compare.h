@@ -35,7 +35,7 @@ inline constexpr double kLeastConfidence = 0.95;
 
 enum class Verdict {
     Equal,         ///< exactly
-    WithinNoise,   ///< the interval holds 1
+    WithinNoise,   ///< the interval holds 1; or, where no ratio can be formed, passes mingle
     Less,          ///< beyond noise, or an exact figure that is another
     More,          ///< the same
     TooFewPasses,  ///< to tell
@@ -47,7 +47,7 @@ struct Figure {
     std::string unit;
     double a = 0;
     double b = 0;
-    std::optional<Ratio> ratio;  ///< where passes were compared
+    std::optional<Ratio> ratio;  ///< where passes were compared, all of them positive and finite
     Verdict verdict = Verdict::Equal;
 };
 

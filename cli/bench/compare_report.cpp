@@ -80,7 +80,7 @@ std::string intervalOf(const Figure& figure) {
     if (figure.ratio)
         return fmt::format("{:>6.3f}  {:.3f} to {:.3f}", figure.ratio->estimate, figure.ratio->low,
                            figure.ratio->high);
-    return figure.a > 0 && std::isfinite(figure.b / figure.a)
+    return figure.a > 0 && std::isfinite(figure.a) && std::isfinite(figure.b)
                ? fmt::format("{:>6.3f}", figure.b / figure.a)
                : "";
 }

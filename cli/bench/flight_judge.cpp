@@ -48,10 +48,14 @@ double allowedPixels(const FrameError& error) {
     return error.promisedPixels + kRasterPixels * error.stretch;
 }
 
-/// How near to its promise, or how far beyond: what makes a frame worth looking at. Less than that
-/// of any other of one that is empty.
+/// How near to its promise, or how far beyond: what makes a frame worth looking at. Of one that is
+/// empty less than that of any other; of one that breaks its promise, by holes as well, more than
+/// that of any that keeps it.
 double share(const FrameError& error) {
-    return isEmpty(error) ? -1 : error.maxPixels / allowedPixels(error);
+    if (isEmpty(error))
+        return -1;
+    const double share = error.maxPixels / allowedPixels(error);
+    return keepsPromise(error) ? share : std::max(share, 1.0) + 1;
 }
 
 }  // namespace

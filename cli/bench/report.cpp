@@ -69,6 +69,8 @@ JsonObject toJson(const FrameError& error) {
         .number("p99", error.p99Pixels)
         .number("max", error.maxPixels)
         .count("holes", error.holes)
+        .count("falseHits", error.falseHits)
+        .count("misplaced", error.misplaced)
         .number("silhouette", error.silhouettePixels)
         .flag("kept", keepsPromise(error));
     return json;

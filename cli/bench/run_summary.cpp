@@ -182,6 +182,7 @@ RunSummary summarize(const Played& played) {
 
 ErrorSummary summarize(const MeasuredErrors& measured) {
     ErrorSummary summary;
+    summary.judged = measured.frames.size();
     summary.psnrDb = std::numeric_limits<double>::infinity();
     std::vector<double> medians;
     for (const FrameError& frame : measured.frames) {

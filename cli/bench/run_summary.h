@@ -64,7 +64,8 @@ RunSummary summarize(const Played& played);
 
 /// Of all frames of a flight that were held against the source.
 struct ErrorSummary {
-    std::uint64_t frames = 0;   ///< that are not empty
+    std::uint64_t judged = 0;   ///< frames
+    std::uint64_t frames = 0;   ///< of these, that are not empty
     double p50Pixels = 0;       ///< median of the frames' that show something of the source
     double p99Pixels = 0;       ///< of the worst frame
     double maxPixels = 0;       ///< of the worst frame

@@ -85,14 +85,16 @@ Percentiles percentilesOf(const Field& field) {
             field.at("max").number()};
 }
 
-PassSummary passOf(const Field& field) {
+void readPass(const Field& field, WrittenRun& run) {
     PassSummary pass{.frame = percentilesOf(field)};
     if (field.has("tauP95")) {
         pass.tauP95 = field.at("tauP95").number();
         pass.triangles = field.at("triangles").number();
         pass.points = field.at("points").number();
+    } else {
+        run.passesTellDrawn = false;
     }
-    return pass;
+    run.passes.push_back(pass);
 }
 
 WrittenRun runOf(const Field& field) {
@@ -104,7 +106,7 @@ WrittenRun runOf(const Field& field) {
     if (field.has("framesInFlight"))
         run.framesInFlight = field.at("framesInFlight").count();
     run.frame = percentilesOf(field.at("frameMs"));
-    for (const Field& pass : field.at("passes").list()) run.passes.push_back(passOf(pass));
+    for (const Field& pass : field.at("passes").list()) readPass(pass, run);
     run.firstPassMedian = field.at("firstPassMs").at("p50").number();
     run.trianglesMean = field.at("trianglesMean").number();
     if (field.has("pointsMean"))
@@ -120,7 +122,8 @@ WrittenRun runOf(const Field& field) {
     if (field.has("errorPx")) {
         run.errorP99 = field.at("errorPx").at("p99").number();
         run.errorMax = field.at("errorPx").at("max").number();
-        run.framesMeasured = field.at("framesMeasured").count();
+        if (field.has("framesJudged"))
+            run.framesJudged = field.at("framesJudged").count();
     }
     return run;
 }

@@ -20,8 +20,9 @@ struct WrittenRun {
     std::string compound;
     int framesInFlight = 1;
     Percentiles frame;
-    /// Errors, triangles and points of each are 0 where a report is from before they were told.
     std::vector<PassSummary> passes;
+    /// Whether these have errors, triangles and points: reports of before have 0 for them.
+    bool passesTellDrawn = true;
     double firstPassMedian = 0;
     double trianglesMean = 0;
     double pointsMean = 0;
@@ -33,7 +34,7 @@ struct WrittenRun {
     double peakResidentBytes = 0;
     std::optional<double> errorP99;  ///< pixels, where they were measured
     std::optional<double> errorMax;
-    int framesMeasured = 0;
+    std::optional<int> framesJudged;  ///< for these; none where a report is from before it was told
 };
 
 struct WrittenReport {

@@ -69,6 +69,7 @@ void addMeasured(const ErrorSummary& errors, JsonObject& json) {
         .number("flip", errors.flip)
         .flag("measuredWithinPromise", errors.withinPromise)
         .number("trianglesMeasured", errors.trianglesMean)
+        .count("framesJudged", errors.judged)
         .count("framesMeasured", errors.frames);
 }
 

@@ -102,6 +102,24 @@ try {
     "whose pictures are measured, and are off by a share of what they promised",
   );
 
+  // Away from the ball for most of the time: half of the frames promise nothing.
+  const look = (seconds, x) => ({ seconds, camera: { eye: [4, 0, 0], target: [x, 0, 0] } });
+  const keys = [look(0, 0), look(3, 0), look(3.01, 8), look(10, 8)];
+  writeFileSync(join(folder, "away.json"), JSON.stringify({ keys }));
+  bench("away.json", "--budget-ms", "1000", "--reference", "-o", "away");
+  const away = readFileSync(join(folder, "away/index.html"), "utf8");
+  check(away.includes('"tauAchieved": {"p50": 0,'), "a run of which most frames show nothing");
+  for (const [name, field] of [
+    ["as it is", /$^/g],
+    ["with measured frames that promise 0", /(?<="promised": )[\d.]+/g],
+    ["with 99 in 100 pixels off by 0", /(?<="p99": )[\d.]+(?=, "max": [\d.]+, "promised")/g],
+  ]) {
+    writeFileSync(join(folder, "none.html"), away.replaceAll(field, "0"));
+    await browser.page.goto(pathToFileURL(join(folder, "none.html")).href);
+    const drawn = await browser.page.innerHTML("#curve");
+    check(/circle/.test(drawn) && !/Infinity|NaN/.test(drawn), `is in the curve, ${name}`);
+  }
+
   eyrie("synth", "mesh", "--size", "2000", "--seed", "3", "-o", "fine.ply");
   eyrie("import", "mesh", "fine.ply", "-o", "fine.eym");
   const few = ["--tau", "1", "--frames", "4", "--repeats", "1", "--size", "320x240"];
@@ -116,6 +134,20 @@ try {
   check(share <= 100, "both together are not");
   for (const place of ["#errors-says", "#curve-note"])
     check((await browser.page.textContent(place)).includes("1/256"), `${place} tells of it`);
+
+  const misplaced = readFileSync(join(folder, "fine/index.html"), "utf8")
+    .replace('"misplaced": 0', '"misplaced": 9')
+    .replace('"measuredWithinPromise": true', '"measuredWithinPromise": false');
+  writeFileSync(join(folder, "misplaced.html"), misplaced);
+  await browser.page.goto(pathToFileURL(join(folder, "misplaced.html")).href);
+  const [broken] = (await marks(browser.page, "#curve")).filter(({ words }) =>
+    words.includes("the worst pixel of"),
+  );
+  for (const words of [broken.words, await browser.page.textContent("#errors-says")])
+    check(
+      words.includes("9 holes, false hits or misplaced") && !words.includes("more than"),
+      "a promise broken by misplaced pixels is not one that a surface is beyond",
+    );
 
   eyrie("bench", "fine.eym", ...few, "--reference", "--reference-frames", "1", "-o", "one");
   await browser.page.goto(pathToFileURL(join(folder, "one/index.html")).href);
@@ -135,6 +167,26 @@ try {
   eyrie("bench", "--compare", "near", "near", "-o", "compared");
   await browser.page.goto(pathToFileURL(join(folder, "compared/index.html")).href);
   check((await marks(browser.page, "#curve")).length === 4, "a comparison has both of each run");
+  const summary = readFileSync(join(folder, "near/summary.json"), "utf8");
+  const bounded = summary.replaceAll('"tauAchievedMax": null', '"tauAchievedMax": 0.9');
+  writeFileSync(join(folder, "bounded.json"), bounded);
+  for (const [a, b, colour] of [
+    ["bounded.json", "near", "bad"],
+    ["near", "bounded.json", "truth"],
+  ]) {
+    const table = eyrie("bench", "--compare", a, b, "-o", "lost").toString();
+    check(
+      /error promised, px +(0.9 +inf|inf +0.9) +(more|less)/.test(table),
+      "a table has no ratio where one has no bound",
+    );
+    await browser.page.goto(pathToFileURL(join(folder, "lost/index.html")).href);
+    const [, , ratio, , verdict] = await browser.page.$$eval(
+      "#numbers tr:has(th:text('error promised, px')) >> nth=0 >> td",
+      (cells) => cells.map((cell) => ({ words: cell.textContent, colour: cell.className })),
+    );
+    check(ratio.words === "–", `nor has the page, of ${a} and ${b}`);
+    check(verdict.colour === colour, `B is ${verdict.words}, which is ${colour}`);
+  }
   check(browser.errors.length === 0, `no page has an error: ${browser.errors.join("; ")}`);
 } finally {
   await browser.close();

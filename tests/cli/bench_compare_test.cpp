@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -144,9 +145,40 @@ TEST_F(CompareReports, ErrorsMeasuredOfOtherFramesAreNoDifference) {
     ASSERT_TRUE(more.ok()) << more.status();
     EXPECT_EQ(verdictOf(*more, "error measured, worst"), Verdict::NotRepeated);
     EXPECT_EQ(countBeyondNoise(*more), 0);
-    EXPECT_THAT(more->notes,
-                testing::Each(testing::ContainsRegex("measured of 6 frames in .*, of 24 in ")));
+    EXPECT_THAT(
+        more->notes,
+        testing::Each(testing::ContainsRegex("measured of 6 of 8 frames in .*, of 24 of 8 in ")));
     EXPECT_EQ(more->notes.size(), 2U);
+}
+
+TEST_F(CompareReports, ErrorsMeasuredOfAsManyFramesThatAreNotEmptyMayBeOfOthers) {
+    Report six = reportMeasuring(5, 0.6);
+    for (BenchRun& run : six.runs) run.measured->frames.insert(run.measured->frames.begin(), {{}});
+    const auto other = compared(reportMeasuring(5, 0.5), six);
+    ASSERT_TRUE(other.ok()) << other.status();
+    EXPECT_EQ(verdictOf(*other, "error measured, worst"), Verdict::NotRepeated);
+    EXPECT_THAT(other->notes,
+                testing::Each(testing::ContainsRegex("measured of 5 of 8 frames in .*, of 6 of ")));
+    EXPECT_EQ(other->notes.size(), 2U);
+
+    Report longer = reportMeasuring(5, 0.6);
+    longer.facts.frames = 16;
+    const auto forced = compared(reportMeasuring(5, 0.5), longer, true);
+    ASSERT_TRUE(forced.ok()) << forced.status();
+    EXPECT_EQ(verdictOf(*forced, "error measured, worst"), Verdict::NotRepeated);
+    EXPECT_THAT(forced->notes, testing::Contains(testing::ContainsRegex("5 of 16 in ")).Times(2));
+}
+
+TEST_F(CompareReports, OfErrorsOfBeforeNobodyKnowsOfWhichFramesTheyAre) {
+    std::string old = summaryJson(reportMeasuring(5, 0.5));
+    for (std::size_t at = 0; (at = old.find("framesJudged", at)) != std::string::npos; ++at)
+        old.replace(at, 12, "before");
+    const auto a = readReport(folder_.write("old.json", old));
+    ASSERT_TRUE(a.ok()) << a.status();
+    const auto both = compare(*a, *a, false);
+    ASSERT_TRUE(both.ok()) << both.status();
+    EXPECT_EQ(verdictOf(*both, "error measured, worst"), Verdict::NotRepeated);
+    EXPECT_THAT(both->notes, testing::Each(HasSubstr("measured of some of 8 frames in ")));
 }
 
 /// As reportTaking, at a frame time to hold or by two renderers; tau and triangles go up and down
@@ -180,6 +212,60 @@ TEST_F(CompareReports, WhatDoesNotRepeatIsJudgedByHowPassesSpread) {
         ASSERT_TRUE(more.ok()) << more.status();
         EXPECT_EQ(verdictOf(*more, "error promised, p95"), Verdict::More);
         EXPECT_EQ(verdictOf(*more, "triangles, mean"), Verdict::More);
+    }
+}
+
+/// As reportOfFreeTau at a frame time, but of the same error and points in every frame.
+Report reportPromising(double tauAchieved, std::uint64_t points = 1, int passes = 5) {
+    Report report = reportTaking(20, passes);
+    for (BenchRun& run : report.runs) {
+        run.budgetMilliseconds = 33;
+        for (PlayedFrame& frame : run.played.frames) {
+            frame.statistics.tauAchievedPixels = tauAchieved;
+            frame.statistics.points = points;
+        }
+    }
+    return report;
+}
+
+TEST_F(CompareReports, WhatIsZeroOrWithoutABoundIsJudgedByTheOrderOfPasses) {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    const auto promised = [&](double a, double b, int passes = 5) {
+        const auto both =
+            compared(reportPromising(a, 1, passes), reportPromising(b, 1, passes)).value();
+        return verdictOf(both, "error promised, p95");
+    };
+    EXPECT_EQ(promised(0.9, kNone), Verdict::More);
+    EXPECT_EQ(promised(kNone, 0.9), Verdict::Less);
+    EXPECT_EQ(promised(0.9, kNone, 3), Verdict::TooFewPasses);
+    EXPECT_EQ(promised(kNone, kNone), Verdict::Equal);
+    EXPECT_EQ(promised(0, 0), Verdict::Equal);
+    Report some = reportPromising(0.9);
+    for (BenchRun& run : some.runs)
+        for (PlayedFrame& frame : run.played.frames)
+            if (frame.pass == 2)
+                frame.statistics.tauAchievedPixels = kNone;
+    EXPECT_EQ(verdictOf(compared(reportPromising(0.9), some).value(), "error promised, p95"),
+              Verdict::WithinNoise);
+    const auto lost = compared(reportPromising(0.9), reportPromising(kNone));
+    EXPECT_EQ(countBeyondNoise(*lost), 2) << "one a run: " << table(*lost);
+    const auto points = compared(reportPromising(0.9, 0), reportPromising(0.9, 500));
+    EXPECT_EQ(verdictOf(*points, "points, mean"), Verdict::More);
+}
+
+TEST_F(CompareReports, PassesOfBeforeErrorsWereToldOfEachAreNotJudgedByThem) {
+    std::string old = summaryJson(reportPromising(0.9));
+    for (std::size_t at = 0; (at = old.find("\"tauP95\"", at)) != std::string::npos; ++at)
+        old.replace(at, 8, "\"before\"");
+    const auto a = readReport(folder_.write("old.json", old));
+    ASSERT_TRUE(a.ok()) << a.status();
+    for (const auto& [before, after] :
+         {std::pair(*a, *a), {*a, *written(reportPromising(0.9), "new.json")}}) {
+        const auto both = compare(before, after, false);
+        ASSERT_TRUE(both.ok()) << both.status();
+        EXPECT_EQ(verdictOf(*both, "error promised, p95"), Verdict::TooFewPasses);
+        EXPECT_EQ(verdictOf(*both, "triangles, mean"), Verdict::TooFewPasses);
+        EXPECT_EQ(countBeyondNoise(*both), 0);
     }
 }
 

@@ -393,6 +393,36 @@ TEST(FlightJudge, AFrameThatShowsNothingDidNotComeClosestToItsPromise) {
     EXPECT_EQ(measured->worst.at(0).error.seconds, 1);
 }
 
+/// The second is drawn where it is, but for a hole.
+TEST(FlightJudge, AFrameWithHolesIsWorseThanOneThatComesNearItsPromise) {
+    const auto plane = LiftedPlane::source();
+    ReferenceScene scene{{{{plane, nullptr}, "plane.eyt"}},
+                         std::make_shared<truth::PlacedSurfaces>(
+                             std::vector<truth::PlacedSurface>{{plane, fabric::Mat4(1)}})};
+    const fabric::Camera there{.eye = {32, -60, 30}, .target = {32, -32, 7}, .fovYDegrees = 20};
+    FlightJudge judge(std::move(scene), fabric::Flight{{{0, there}, {1, there}}},
+                      {.width = 160, .height = 90, .played = 2, .judged = 2}, {});
+    LiftedPlane lifted(0.25F);
+    LiftedPlane exact(0);
+    coordinator::FrameRequest request;
+    request.camera = there;
+    request.width = 160;
+    request.height = 90;
+    std::vector<coordinator::RenderedFrame> shown{lifted.draw(request).value(),
+                                                  exact.draw(request).value()};
+    for (coordinator::RenderedFrame& frame : shown) frame.statistics.tauAchievedPixels = 2;
+    for (std::size_t row = 40; row < 50; ++row)
+        std::fill_n(shown[1].image.depth.begin() + static_cast<std::ptrdiff_t>(row * 160 + 75), 10,
+                    0.0F);
+    const auto measured = judge.judge(std::move(shown), exact, request, [] {}, {});
+    ASSERT_TRUE(measured.ok()) << measured.status();
+    EXPECT_TRUE(keepsPromise(measured->frames.at(0)));
+    EXPECT_GT(measured->frames[0].maxPixels, 1);
+    EXPECT_LT(measured->frames.at(1).maxPixels, 0.1);
+    EXPECT_EQ(measured->frames[1].holes, 100U);
+    EXPECT_EQ(measured->worst.at(0).error.seconds, 1);
+}
+
 std::vector<BenchRun> runWith(double maxPixels, double promisedPixels) {
     BenchRun run;
     run.label = "2 px";

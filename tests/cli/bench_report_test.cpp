@@ -243,6 +243,7 @@ TEST(BenchReport, FramesThatShowNothingAreNotMeasured) {
     EXPECT_EQ(summarize(*made.runs[0].measured).p50Pixels, p50);
     const auto run = test::list(parseJson(summaryJson(made)), "runs").at(0);
     EXPECT_EQ(number(run, "framesMeasured"), 3);
+    EXPECT_EQ(number(run, "framesJudged"), 8);
     EXPECT_THAT(reportPage(made), testing::Not(testing::HasSubstr("\"seconds\": 0.1,")));
 }
 

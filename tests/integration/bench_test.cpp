@@ -73,6 +73,24 @@ TEST_F(Bench, AReportHasARunForEachTau) {
     EXPECT_GT(number(runs[0], "peakResidentBytes"), 1e6);
 }
 
+/// --eye is drawn by one renderer at least.
+TEST_F(Bench, WhatIsAskedForTwiceIsMeasuredOnce) {
+    const auto labels = [&](std::vector<std::string> asked) {
+        asked.insert(asked.begin(), {"bench", dem(), "--size", "80x45", "--frames", "1",
+                                     "--repeats", "1", "-o", path("once")});
+        EXPECT_TRUE(succeeded(asked));
+        std::vector<std::string> found;
+        for (const test::JsonValue& run : test::list(summaryOf(path("once")), "runs"))
+            found.push_back(test::at(run, "label").string_value());
+        return found;
+    };
+    EXPECT_THAT(labels({"--tau", "4,1,4.0,1"}), testing::ElementsAre("4 px", "1 px"));
+    EXPECT_THAT(labels({"--budget-ms", "33,33", "--renderers", "0,0"}),
+                testing::ElementsAre("33 ms"));
+    EXPECT_THAT(labels({"--tau", "1", "--renderers", "0,1", "--eye", "left"}),
+                testing::ElementsAre("1 px"));
+}
+
 TEST_F(Bench, OfARecordedFlightKeepsTauForAnyNumberOfProcesses) {
     const std::string flight = writeFlight("flight.json", key(0, 2500) + "," + key(2, 4000));
     const auto errorWith = [&](const std::vector<std::string>& renderers, const char* name) {

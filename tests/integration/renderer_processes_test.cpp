@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "tests/support/different_pixels.h"
 #include "tests/support/local_pictures.h"
@@ -107,6 +107,19 @@ protected:
     static std::unique_ptr<test::TemporaryFolder> folder_;
 };
 std::unique_ptr<test::TemporaryFolder> RendererProcesses::folder_;
+
+/// bench/distribution: of as many pictures as it says, eight or all of a shorter orbit.
+TEST_F(RendererProcesses, AreToldToDrawAsOneInThisProcessDoes) {
+    for (const auto& [frames, pictures] : {std::pair(3, 3), {12, 8}}) {
+        const test::Outcome outcome =
+            test::run({EYRIE_DISTRIBUTION_BINARY, EYRIE_BINARY, folder_->path("dem.eyt"), "2D",
+                       std::to_string(frames), "192x108", "4", "1"},
+                      std::chrono::minutes(2));
+        EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors << outcome.output;
+        EXPECT_THAT(outcome.output,
+                    testing::HasSubstr(fmt::format("\n0 pixels of {} pictures differ", pictures)));
+    }
+}
 
 TEST_F(RendererProcesses, DrawATerrainAsOneRendererDoes) {
     expectEveryLayoutEqual(fabric::ObjectKind::Terrain);

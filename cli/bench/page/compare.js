@@ -2,8 +2,12 @@
 // Two reports: both curves, and each figure with what is beyond noise.
 
 const medianOf = (run) => run.figures[0];
+/** Of a figure, where null is an error without a bound. */
+const size = (value) => value ?? Infinity;
 const verdictClass = (figure) =>
-  !figure.beyondNoise ? "" : figure.unit === "ms" || figure.unit === "px" ? (figure.b < figure.a ? "truth" : "bad") : "time";
+  !figure.beyondNoise ? "" : figure.unit === "ms" || figure.unit === "px" ? (size(figure.b) < size(figure.a) ? "truth" : "bad") : "time";
+/** Where both are finite. */
+const ratioOf = ({ a, b, ratio }) => ratio ?? (a > 0 && b !== null ? b / a : undefined);
 
 function drawBoth(place) {
   const shown = runs.filter((run) => isOnAxis(run.a) && isOnAxis(run.b));
@@ -66,7 +70,7 @@ function fillFigures(table) {
   for (const run of runs) {
     const body = html("tbody", {}, html("tr", { class: "group" }, html("th", { scope: "rowgroup", colspan: 6 }, `${run.label}, ${processes(run)}`)));
     for (const figure of run.figures) {
-      const ratio = figure.ratio ?? (figure.a > 0 ? figure.b / figure.a : undefined);
+      const ratio = ratioOf(figure);
       body.append(html("tr", {}, html("th", { scope: "row" }, figure.name + (figure.unit ? `, ${figure.unit}` : "")),
         html("td", {}, number(figure.a, 4)), html("td", {}, number(figure.b, 4)), html("td", {}, ratio === undefined ? "–" : number(ratio, 4)),
         html("td", {}, figure.ratio === undefined ? "–" : `${number(figure.low, 4)} to ${number(figure.high, 4)}`),

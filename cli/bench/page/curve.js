@@ -4,6 +4,24 @@
 /** "12 %" of its promise and what rasterisation rounds, of the worst pixel measured; nothing where there is no bound. */
 const shareOfPromise = (run) => (measuredPromiseOf(run) === null ? "" : `${number((100 * run.errorPx.max) / (measuredPromiseOf(run) + run.errorPx.rounded), 2)} %`);
 
+/** Holes, false hits and misplaced pixels of a run or a frame, in words; nothing where there are none. */
+function wrongPixelsOf({ holes, falseHits, misplaced }) {
+  const count = holes + falseHits + misplaced;
+  return count > 0 ? `${number(count)} holes, false hits or misplaced pixels` : "";
+}
+
+/** How a run breaks its promise, in words. */
+function breachOf(run) {
+  const { max, promised, rounded } = run.errorPx;
+  const isBeyond = !wrongPixelsOf(run) || (promised !== null && max > promised + rounded);
+  return [isBeyond && "more than was promised", wrongPixelsOf(run)].filter(Boolean).join("; ");
+}
+
+/** Whether a run held a frame time, with a median of promises that has a place on the axis. */
+const hasMedian = (run) => run.budgetMs > 0 && run.tauAchieved.p50 !== 0;
+/** Where p99 is drawn: it may be 0, which has no place. */
+const p99Of = (run) => Math.max(run.errorPx.p99, run.errorPx.max / 64);
+
 /** What is between the worst pixel measured and the promise: error that was not used. */
 function drawMeasured(svg, list, { x, y }) {
   const at = (run, error) => [x(error), y(run.frameMs.p50)];
@@ -12,9 +30,9 @@ function drawMeasured(svg, list, { x, y }) {
   svg.append(mark("path", { d: `${path([...promised, ...worstPixels.reverse()])}Z`, fill: "var(--truth)", opacity: 0.09 }));
   worstPixels.reverse();
   svg.append(curve(worstPixels, "var(--truth)"),
-             curve(list.map((run) => at(run, run.errorPx.p99)), "var(--truth)", { "stroke-dasharray": "1 5", "stroke-linecap": "round" }));
+             curve(list.map((run) => at(run, p99Of(run))), "var(--truth)", { "stroke-dasharray": "1 5", "stroke-linecap": "round" }));
   for (const run of list) {
-    const [left, level] = at(run, run.errorPx.p99);
+    const [left, level] = at(run, p99Of(run));
     const broken = run.measuredWithinPromise === false;
     svg.append(mark("line", { x1: left, x2: x(measuredPromiseOf(run)), y1: level, y2: level, stroke: "var(--truth)", opacity: 0.45 }));
     const dot = mark("circle", { cx: x(run.errorPx.max), cy: level, r: 5, fill: broken ? "var(--bad)" : "var(--truth)", stroke: "var(--panel)", "stroke-width": 1.5 });
@@ -23,7 +41,7 @@ function drawMeasured(svg, list, { x, y }) {
     svg.append(mark("circle", { cx: left, cy: level, r: 3.5, fill: "var(--panel)", stroke: "var(--truth)", "stroke-width": 1.75 }),
                explained(dot, `${run.label}: the worst pixel of ${run.framesMeasured} frames is ${number(run.errorPx.max)} px off,\n` +
                  `99 in 100 of any frame are within ${number(run.errorPx.p99)} px\n` +
-                 (broken ? "more than was promised" : `${shareOfPromise(run)} of the ${number(measuredPromiseOf(run))} px promised and the ${number(run.errorPx.rounded)} px that rasterisation rounds`)));
+                 (broken ? breachOf(run) : `${shareOfPromise(run)} of the ${number(measuredPromiseOf(run))} px promised and the ${number(run.errorPx.rounded)} px that rasterisation rounds`)));
   }
 }
 
@@ -47,7 +65,7 @@ function drawSeries(svg, list, colour, { x, y }, labelled) {
   for (const run of list) {
     const [cx, cy] = at(run, run.frameMs.p50);
     const [, top] = at(run, run.frameMs.p95);
-    if (run.budgetMs > 0)
+    if (hasMedian(run))
       svg.append(mark("line", { x1: x(run.tauAchieved.p50), x2: cx, y1: cy, y2: cy, stroke: colour, opacity: 0.5, "stroke-width": 4, "stroke-linecap": "round" }));
     svg.append(mark("line", { x1: cx, x2: cx, y1: cy, y2: top, stroke: colour, opacity: 0.5, "stroke-width": 1.5 }),
                explained(mark("circle", { cx, cy, r: 5.5, fill: colour, stroke: "var(--panel)", "stroke-width": 1.5 }),
@@ -60,9 +78,8 @@ function drawSeries(svg, list, colour, { x, y }, labelled) {
 function drawCurve(place) {
   const shown = runs.filter(isOnAxis);
   if (shown.length === 0) return sayLeftOut(place, runs);
-  const measured = shown.filter((run) => run.errorPx && run.errorPx.max > 0);
-  const held = shown.filter((run) => run.budgetMs > 0 && run.tauAchieved.p50 !== 0);
-  const all = [...shown.map(errorOf), ...held.map((run) => run.tauAchieved.p50), ...measured.flatMap((run) => [measuredPromiseOf(run), Math.max(run.errorPx.p99, run.errorPx.max / 64), run.errorPx.max])];
+  const measured = shown.filter((run) => run.errorPx && run.errorPx.max > 0 && measuredPromiseOf(run) !== 0);
+  const all = [...shown.map(errorOf), ...shown.filter(hasMedian).map((run) => run.tauAchieved.p50), ...measured.flatMap((run) => [measuredPromiseOf(run), p99Of(run), run.errorPx.max])];
   const box = { left: 56, right: 860, top: 34, bottom: 380 };
   const svg = drawing(930, 430, `Frame time against error. ${shown.map((run) =>
     `${run.label}, ${processes(run)}: ${number(run.frameMs.p50)} milliseconds, promised ${number(errorOf(run))} pixels`).join("; ")}.`);
@@ -71,7 +88,7 @@ function drawCurve(place) {
   const own = groups.map(([, list]) => list.filter((run) => measured.includes(run))).find((list) => list.length > 0);
   if (own) drawMeasured(svg, own, axes);
   groups.forEach(([, list], i) => drawSeries(svg, list, seriesColours[i % 4], axes, groups.length === 1));
-  const entries = groups.map(([name, list], i) => [`promised${held.length > 0 ? "" : " for every frame"}${groups.length > 1 ? `, ${name}` : ""} (median, shaded to p95)`, seriesColours[i % 4]]);
+  const entries = groups.map(([name, list], i) => [`promised${shown.some((run) => run.budgetMs > 0) ? "" : " for every frame"}${groups.length > 1 ? `, ${name}` : ""} (median, shaded to p95)`, seriesColours[i % 4]]);
   if (measured.length > 0) entries.push([`measured${groups.length > 1 ? `, ${processes(own[0])}` : ""}: worst pixel (filled) and p99 (hollow)`, "var(--truth)"]);
   place.append(legend(entries), svg);
   sayLeftOut(place, runs.filter((run) => !isOnAxis(run)));

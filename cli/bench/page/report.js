@@ -17,7 +17,7 @@ function fillTiles(list) {
   list.append(tile(number(run.fpsMedian), "frames/s", `median at ${run.label}, ${number(run.frameMs.p50)} ms a frame`, "time"),
               tile(`≤ ${number(run.tauAchievedMax)}`, "px", "error promised for every pixel of every frame"));
   if (run.errorPx)
-    list.append(tile(number(run.errorPx.max), "px", run.measuredWithinPromise ? `worst pixel measured against the source${shareOfPromise(run) && `, ${shareOfPromise(run)} of the promise and what rasterisation rounds`}` : "worst pixel measured: the promise was broken",
+    list.append(tile(number(run.errorPx.max), "px", run.measuredWithinPromise ? `worst pixel measured against the source${shareOfPromise(run) && `, ${shareOfPromise(run)} of the promise and what rasterisation rounds`}` : `worst pixel measured; the promise was broken: ${breachOf(run)}`,
                      run.measuredWithinPromise ? "truth" : "bad"));
   if (run.efficiency) list.append(tile(`${number(run.efficiency, 2)}×`, "fewer", "triangles than uniform decimation has in view at the same measured p99 error", "truth"));
   else list.append(tile(compact(run.trianglesMean + run.pointsMean), "", run.pointsMean > 0 ? "triangles and points a frame, in the mean" : "triangles a frame, in the mean"));
@@ -68,7 +68,7 @@ function fillWorst(place) {
   const picture = (bytes, words) => html("img", { alt: words, ["s" + "rc"]: `data:image/png;base64,${bytes}` });
   for (const [run, frame] of shown) {
     const words = `${run.label}, second ${number(frame.seconds)}`;
-    const used = `${number(frame.max)} px off, ${number(frame.promised)} px promised; p99 ${number(frame.p99)} px, ${number(frame.holes)} holes`;
+    const used = `${number(frame.max)} px off, ${number(frame.promised)} px promised; p99 ${number(frame.p99)} px${wrongPixelsOf(frame) && `; ${wrongPixelsOf(frame)}`}`;
     place.append(html("figure", {}, html("figcaption", {}, html("strong", {}, words), ` · worst pixel ${used}`),
       html("div", { class: "pair" }, picture(frame.picture, `The picture at ${words}`), picture(frame.heatMap, `Its displacement per pixel: ${used}`))));
   }
@@ -84,9 +84,9 @@ function sayWhatIsSeen() {
   byId("curve-note").textContent = measured.length > 0
     ? "Promised is a bound that holds before a frame is drawn; measured is what an independent ray caster in double precision finds against the full-resolution source. Measured must never be to the right of promised by more than the 1/256 of a drawn pixel that rasterisation rounds: promises less than that may seem broken here."
     : "Promised is a bound, derived in docs/errors.md. With --reference it is held against the full-resolution source.";
-  const broken = measured.filter((one) => one.measuredWithinPromise === false).length;
+  const broken = measured.filter((one) => one.measuredWithinPromise === false);
   if (measured.length > 0)
-    say(byId("errors-says"), broken === 0 ? `No pixel of **${number(measured.reduce((sum, one) => sum + one.framesMeasured, 0))} measured frames** is off by more than its frame promised and the 1/256 of a drawn pixel that rasterisation rounds.` : `**${broken} of ${measured.length} runs** have frames off by more than they promised.`);
+    say(byId("errors-says"), broken.length === 0 ? `No pixel of **${number(measured.reduce((sum, one) => sum + one.framesMeasured, 0))} measured frames** is off by more than its frame promised and the 1/256 of a drawn pixel that rasterisation rounds.` : `**${broken.length} of ${measured.length} runs** have frames that break their promise: ${broken.map((one) => `${one.label}, ${processes(one)}: ${breachOf(one)}`).join("; ")}.`);
   say(byId("strips-says"), `At ${run.label} the slowest frame in a hundred takes **${number(run.frameMs.p99 / run.frameMs.p50, 2)} times** the median. ` + (run.framesInFlight > 1
       ? `Several frames are in flight: a frame’s time is that since the one before it, and has in it what the bench itself does with each, **${number(run.overheadPercent, 2)} %** of it.`
       : `What the bench itself does with each is in none of them: **${number(run.overheadPercent, 2)} %** of their time.`));

@@ -61,7 +61,7 @@ function drawErrors(run, own) {
   const x = linear([own[0].seconds, last], [left + 4, right - 4]);
   const y = linear([0, most], [base, top]);
   const broken = own.filter((one) => !one.kept).length;
-  const svg = drawing(330, 142, `${run.label}: worst pixel of each measured frame under its promise in ${own.length - broken} of ${own.length} frames`);
+  const svg = drawing(330, 142, `${run.label}: worst pixel of each measured frame beside its promise, which ${own.length - broken} of ${own.length} frames keep`);
   for (const pixels of ticks(most))
     svg.append(mark("line", { class: pixels === 0 ? "axis" : "grid", x1: left, x2: right, y1: y(pixels), y2: y(pixels) }),
                mark("text", { x: left - 6, y: y(pixels) + 4, "text-anchor": "end" }, number(pixels)));
