@@ -24,8 +24,7 @@ bool isBare(const Compound& compound) {
 
 class DestinationAdder {
 public:
-    explicit DestinationAdder(Configuration& configuration)
-        : configuration_(configuration), first_(configuration.canvases.size()) {}
+    explicit DestinationAdder(Configuration& configuration) : configuration_(configuration) {}
 
     /// What groups say for those in them that do not.
     struct Said {
@@ -58,7 +57,7 @@ private:
     /// Trees of one channel and wall, such as each eye's, make one picture.
     void addAlone(Compound& compound, const Said& said) {
         const ChannelIndex channel = std::get<ChannelIndex>(compound.channel);
-        std::size_t canvas = first_;
+        std::size_t canvas = 0;
         const auto isIts = [&](const Canvas& made) {
             return made.segments.size() == 1 && made.segments[0].channel == channel &&
                    viewOf(made).surface == said.surface;
@@ -132,7 +131,6 @@ private:
     }
 
     Configuration& configuration_;
-    std::size_t first_;  ///< of the canvases made here
 };
 
 void addObserver(Configuration& configuration) {
@@ -145,10 +143,10 @@ void addObserver(Configuration& configuration) {
 
 void upgrade(Configuration& configuration) {
     const bool isOld = configuration.version == "1.0" || configuration.version == "1.1";
-    if (!isOld && !configuration.canvases.empty())
-        return;
-    DestinationAdder adder(configuration);
-    for (Compound& root : configuration.compounds) adder.add(root);
+    if (configuration.canvases.empty()) {
+        DestinationAdder adder(configuration);
+        for (Compound& root : configuration.compounds) adder.add(root);
+    }
     if (configuration.observers.empty() && (isOld || !configuration.canvases.empty()))
         addObserver(configuration);
 }

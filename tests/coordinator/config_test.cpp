@@ -97,13 +97,19 @@ TEST(EqcUpgrade, GivesOldTreesWithoutViewOneOfTheirOwn) {
     }
 }
 
-TEST(EqcUpgrade, LeavesTreesOfNewerFilesAloneBesideACanvas) {
+TEST(EqcUpgrade, LeavesTreesWithoutViewAloneBesideACanvas) {
     const std::string rest =
-        " config { node { pipe { window { channel { name \"a\" } } } } canvas {}"
+        "config { node { pipe { window { channel { name \"a\" } } } }"
+        " layout { view {} } canvas { layout 0 segment { channel \"a\" } }"
         " compound { channel \"a\" } }";
-    EXPECT_EQ(Read("#Equalizer 1.1 ascii\n" + rest).resolved.destinations.size(), 1U);
-    EXPECT_TRUE(Read("#Equalizer 1.2 ascii\n" + rest).resolved.destinations.empty());
-    EXPECT_TRUE(Read(rest).resolved.destinations.empty());
+    for (const char* const header :
+         {"", "#Equalizer 1.0 ascii\n", "#Equalizer 1.1 ascii\n", "#Equalizer 1.2 ascii\n"}) {
+        const Read read(header + rest);
+        EXPECT_EQ(read.resolved.destinations.size(), 1U) << header;
+        EXPECT_THAT(describe(read.findings, "f"),
+                    HasSubstr("nothing of this compound tree is shown"))
+            << header;
+    }
 }
 
 TEST(EqcUpgrade, MakesSegmentsOfOneCanvasOfAGroup) {
