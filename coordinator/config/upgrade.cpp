@@ -142,12 +142,11 @@ void addObserver(Configuration& configuration) {
 }  // namespace
 
 void upgrade(Configuration& configuration) {
-    const bool isOld = configuration.version == "1.0" || configuration.version == "1.1";
     if (configuration.canvases.empty()) {
         DestinationAdder adder(configuration);
         for (Compound& root : configuration.compounds) adder.add(root);
     }
-    if (configuration.observers.empty() && (isOld || !configuration.canvases.empty()))
+    if (configuration.observers.empty())
         addObserver(configuration);
 }
 

@@ -181,16 +181,17 @@ TEST(EqcUpgrade, GivesTreesOfEachEyeOneView) {
     EXPECT_EQ(old.resolved.compounds[1].sights.at(0).eye, EyeSight::Eye::Right);
 }
 
-TEST(EqcUpgrade, GivesOldFilesAnObserver) {
-    const std::string rest = " config { layout { view {} } }";
-    const Configuration old = Read("#Equalizer 1.1 ascii\n" + rest).configuration;
-    EXPECT_EQ(old.observers.size(), 1U);
-    EXPECT_EQ(old.layouts[0].views[0].observer, 0U);
-    EXPECT_TRUE(Read("#Equalizer 1.2 ascii\n" + rest).configuration.observers.empty());
-    const Configuration has =
-        Read("#Equalizer 1.1 ascii\n config { observer {} layout { view {} } }").configuration;
-    EXPECT_EQ(has.observers.size(), 1U);
-    EXPECT_FALSE(has.layouts[0].views[0].observer.has_value());
+TEST(EqcUpgrade, GivesFilesOfEveryVersionAnObserver) {
+    for (const std::string header :
+         {"", "#Equalizer 1.0 ascii\n", "#Equalizer 1.1 ascii\n", "#Equalizer 1.2 ascii\n"}) {
+        const Configuration none = Read(header + "config { layout { view {} } }").configuration;
+        EXPECT_EQ(none.observers.size(), 1U) << header;
+        EXPECT_EQ(none.layouts[0].views[0].observer, 0U) << header;
+        const Configuration has =
+            Read(header + "config { observer {} layout { view {} } }").configuration;
+        EXPECT_EQ(has.observers.size(), 1U) << header;
+        EXPECT_FALSE(has.layouts[0].views[0].observer.has_value()) << header;
+    }
 }
 
 TEST(Resolve, MakesAPlainCompoundOfAViewThatNoneShows) {
