@@ -435,12 +435,13 @@ TEST(EqcWarnings, SayInWhichFramesNothingIsDrawn) {
 TEST(EqcWarnings, SayWhereCompoundsMakeNothingOfWhatTheViewShows) {
     const auto found = [](const std::string& compound) {
         return describe(
-            Read(withCompounds("\ncompound { channel ( segment 0 view 0 ) " + compound + " }"))
+            Read("#Equalizer 1.2 ascii\n" +
+                 withCompounds("\ncompound { channel ( segment 0 view 0 ) " + compound + " }"))
                 .findings,
             "f");
     };
     const std::string background =
-        "f:2:1: warning: no compound draws or assembles what the view shows, that of the eye "
+        "f:3:1: warning: no compound draws or assembles what the view shows, that of the eye "
         "CYCLOP: it is background\n";
     EXPECT_EQ(found("eye [ LEFT RIGHT ]"), background);
     EXPECT_EQ(found("compound { eye [ LEFT ] } compound { eye [ RIGHT ] }"), background);
