@@ -177,6 +177,7 @@ std::optional<Equalizer> readLoadBalancer(const Statement& block, ValueReader& r
                  {{"mode", balances},
                   dampingEntry(reader, equalizer),
                   boundaryEntry(reader, equalizer),
+                  resistanceEntry(reader, equalizer),
                   limitEntry(reader, equalizer),
                   framerateEntry(reader, equalizer)});
     if (reader.findings().errors() > errors)

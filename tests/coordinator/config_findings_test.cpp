@@ -508,6 +508,20 @@ TEST(EqcWarnings, SayWhereAnEqualizerTearsPicturesOfSeveralEyesOrPhases) {
     EXPECT_EQ(found("framerate_equalizer", "period 2 phase 0", "period 2 phase 1"), "");
 }
 
+/// Of a compound with this loadBalancer.
+std::string balancer(const std::string& says) {
+    return withCompounds("compound { channel ( segment 0 view 0 )\nloadBalancer { " + says +
+                         " } compound {} compound {} }");
+}
+
+TEST(EqcLoadBalancers, HaveAResistanceInPixelsOrAsAShare) {
+    const auto of = [](const std::string& says) {
+        return Read(balancer(says)).configuration.compounds[0].equalizers.at(0);
+    };
+    EXPECT_EQ(of("mode 2D resistance [ 8 6 ]").resistancePixels, fabric::Vec2(8, 6));
+    EXPECT_EQ(of("mode DB resistance .25").resistanceRange, .25);
+}
+
 TEST(EqcWarnings, NameBothPlacesOfANameThatTwoThingsHave) {
     const Read read(
         "config {\n node { name \"n\" pipe { name \"p\" window { channel { name \"c\" }\n"
