@@ -522,6 +522,22 @@ TEST(EqcLoadBalancers, HaveAResistanceInPixelsOrAsAShare) {
     EXPECT_EQ(of("mode DB resistance .25").resistanceRange, .25);
 }
 
+TEST(EqcText, TakesAnaglyphInSmallLetters) {
+    const auto modeOf = [](const std::string& word) {
+        return Read(withCompounds(
+                        "compound { channel ( segment 0 view 0 ) attributes { stereo_mode " + word +
+                        " } }"))
+            .configuration.compounds.at(0)
+            .stereoMode;
+    };
+    EXPECT_EQ(modeOf("anaglyph"), StereoMode::Anaglyph);
+    EXPECT_EQ(modeOf("ANAGLYPH"), StereoMode::Anaglyph);
+    const Read global("global { EQ_COMPOUND_IATTR_STEREO_MODE anaglyph } " + withCompounds(""));
+    EXPECT_EQ(describe(global.findings, "f"), "");
+    EXPECT_THAT(firstError(withCompounds("compound { attributes { stereo_mode quad } }")),
+                HasSubstr("'stereo_mode' is quad; expected"));
+}
+
 TEST(EqcWarnings, NameBothPlacesOfANameThatTwoThingsHave) {
     const Read read(
         "config {\n node { name \"n\" pipe { name \"p\" window { channel { name \"c\" }\n"
