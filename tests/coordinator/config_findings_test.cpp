@@ -522,6 +522,20 @@ TEST(EqcLoadBalancers, HaveAResistanceInPixelsOrAsAShare) {
     EXPECT_EQ(of("mode DB resistance .25").resistanceRange, .25);
 }
 
+TEST(EqcLoadBalancers, NameAllModesThatThereAre) {
+    EXPECT_EQ(firstError(balancer("mode DPLX")),
+              "2:16 'mode' is DPLX; expected 2D, DB, HORIZONTAL, VERTICAL, DPLEX, DFR or DDS");
+    for (const auto& [mode, kind] : {std::pair{"DB", EqualizerKind::Load},
+                                     {"DPLEX", EqualizerKind::Framerate},
+                                     {"DFR", EqualizerKind::Dfr},
+                                     {"DDS", EqualizerKind::Monitor}})
+        EXPECT_EQ(Read(balancer(std::string("mode ") + mode))
+                      .configuration.compounds[0]
+                      .equalizers.at(0)
+                      .kind,
+                  kind);
+}
+
 TEST(EqcText, TakesAnaglyphInSmallLetters) {
     const auto modeOf = [](const std::string& word) {
         return Read(withCompounds(
