@@ -113,7 +113,24 @@ TEST(EqcErrors, AreEyesThatAreNotBeforeTheirWall) {
     EXPECT_THAT(firstError("config { appNode { pipe { window { channel { name \"a\" } } } }"
                            " observer { eye_cyclop [ 0 0 -2 ] } layout { view { observer 0 } }"
                            " canvas { layout 0 wall {} segment { channel \"a\" } } }"),
-                HasSubstr("not before the wall"));
+                HasSubstr("1:155 the eye CYCLOP is not before the wall that it looks through"));
+    const auto found = [](const std::string& wall) {
+        return describe(Read("config { appNode { pipe { window { channel { name \"a\" } } } }"
+                             " observer {} layout { view { observer 0 mode STEREO } }"
+                             " canvas { layout 0 wall { " +
+                             wall + " } segment { channel \"a\" } } }")
+                            .findings,
+                        "f");
+    };
+    EXPECT_EQ(found("top_left [ -.8 .5 -1 ] bottom_left [ -.8 -.5 -1 ]"), "");
+    const std::string turned = found(
+        "top_left [ -.8 -.5 -1 ] bottom_left [ -.8 .5 -1 ]"
+        " bottom_right [ .8 .5 -1 ]");
+    for (const char* const eye : {"LEFT", "RIGHT"})
+        EXPECT_THAT(turned,
+                    HasSubstr(std::string("error: the eye ") + eye +
+                              " is not before the wall that it looks through; where the wall shows "
+                              "its back, exchange its bottom and top, or its left and right"));
 }
 
 TEST(EqcWarnings, SayWhatHasNoEffect) {
