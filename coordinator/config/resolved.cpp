@@ -87,7 +87,7 @@ public:
             if (!served_[i])
                 addImplicit(i);
         warnOfMissingPhases(resolved_, findings_);
-        warnOfUnseen(resolved_, findings_);
+        warnOfUnseen(configuration_, resolved_, findings_);
         return std::move(resolved_);
     }
 

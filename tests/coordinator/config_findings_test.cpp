@@ -467,6 +467,54 @@ TEST(EqcWarnings, SayWhereCompoundsMakeNothingOfWhatTheViewShows) {
     EXPECT_EQ(found("compound { eye [ LEFT ] } compound { eye [ CYCLOP ] }"), "");
 }
 
+TEST(EqcWarnings, SayWhichEyeNoCompoundDraws) {
+    const auto found = [](const std::string& segments, const std::string& compounds) {
+        return describe(Read("#Equalizer 1.2 ascii\nconfig { appNode { pipe { window { channel { "
+                             "name \"a\" } channel { name \"b\" } channel { name \"c\" } } } } "
+                             "layout { view { mode STEREO } } canvas { layout 0 wall {} " +
+                             segments + " }\n" + compounds + " }")
+                            .findings,
+                        "f");
+    };
+    const std::string right =
+        "f:3:1: warning: no compound draws or assembles what the view shows, that of the eye "
+        "RIGHT: it is background\n";
+    const std::string whole = "segment { channel \"a\" }";
+    const std::string top = "compound { channel ( segment 0 view 0 ) ";
+    const std::string taken = "inputframe { name \"f\" }";
+    const std::string given = "outputframe { name \"f\" }";
+    EXPECT_EQ(found(whole, top + "eye [ LEFT CYCLOP ] }"), right);
+    EXPECT_EQ(found(whole, top + "compound { eye [ LEFT ] } compound { eye [ LEFT ] } }"), right);
+    EXPECT_EQ(found(whole, top + "compound { eye [ LEFT ] } compound { eye [ RIGHT ] } }"), "");
+    EXPECT_EQ(found(whole, top + "eye [ LEFT ] } " + top + "eye [ RIGHT ] }"), "");
+    EXPECT_EQ(
+        found(whole, top + "compound { channel \"b\" eye [ LEFT ] " + given + " } " + taken + " }"),
+        right);
+    EXPECT_EQ(found(whole, top + "compound { channel \"b\" " + given + " } " + taken + " }"), "");
+
+    const std::string ofB = "compound { channel ( segment 1 view 0 ) ";
+    const std::string over = whole + " segment { channel \"b\" }";
+    const std::string beside =
+        "segment { channel \"a\" viewport [ 0 0 .5 1 ] } segment { channel \"b\" viewport [ .5 0 "
+        ".5 1 ] }";
+    EXPECT_EQ(found(over, top + "eye [ LEFT ] } " + ofB + "eye [ RIGHT ] }"), "");
+    EXPECT_EQ(found(beside, top + "eye [ LEFT ] } " + ofB + "}"), right);
+    EXPECT_THAT(found(over, top + "} " + ofB + "task [ CLEAR ] }"),
+                HasSubstr("of the eye LEFT and RIGHT"));
+    const std::string head = " compound { wall { type HMD } } } ";
+    EXPECT_EQ(found(beside, top + "eye [ LEFT ]" + head + ofB + "eye [ RIGHT ]" + head), "");
+    EXPECT_THAT(found(beside, top + "eye [ LEFT ]" + head + ofB + "eye [ LEFT ]" + head),
+                HasSubstr(right));
+    // Another segment's picture is taken, with the eyes that it has.
+    EXPECT_EQ(found(beside, "compound { " + ofB + given + " } " + top + "task [ ASSEMBLE ] " +
+                                taken + " } }"),
+              "");
+    EXPECT_THAT(found(beside, "compound { " + ofB + "compound { eye [ LEFT ] " + given + " } }\n" +
+                                  top + "task [ ASSEMBLE ] " + taken + " } }"),
+                HasSubstr("f:4:1: warning: no compound draws or assembles what the view shows, "
+                          "that of the eye RIGHT"));
+}
+
 TEST(EqcWarnings, SayWherePartsOfTheDataComeWithoutDepth) {
     const auto found = [](const std::string& above, const std::string& part,
                           const std::string& frame) {
