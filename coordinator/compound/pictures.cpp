@@ -29,7 +29,7 @@ config::StereoMode globalMode(const config::Configuration& configuration) {
     const std::string& word = words->words.front();
     if (word == "QUAD")
         return config::StereoMode::Quad;
-    if (word == "ANAGLYPH")
+    if (word == "ANAGLYPH" || word == "anaglyph")
         return config::StereoMode::Anaglyph;
     return word == "PASSIVE" ? config::StereoMode::Passive : config::StereoMode::Auto;
 }

@@ -113,11 +113,11 @@ constexpr std::array kKnown{
 constexpr std::array<std::string_view, 8> kScopeNames{
     "CONFIG", "NODE", "PIPE", "VIEW", "WINDOW", "CHANNEL", "COMPOUND", "CONNECTION"};
 
-constexpr std::array<std::string_view, 31> kSettings{
-    "async", "draw_sync", "local_sync", "ON",       "OFF",        "AUTO",   "FASTEST", "NICEST",
-    "QUAD",  "ANAGLYPH",  "PASSIVE",    "VERTICAL", "HORIZONTAL", "window", "pbuffer", "FBO",
-    "ASYNC", "DRAW_SYNC", "LOCAL_SYNC", "RGBA16F",  "RGBA32F",    "EXTERN", "CORE",    "SOCKET",
-    "TCPIP", "PIPE",      "RSP",        "RDMA",     "UDT",        "SDP",    "MCIP_RSP"};
+constexpr std::array<std::string_view, 32> kSettings{
+    "async", "draw_sync", "local_sync", "ON",       "OFF",        "AUTO",   "FASTEST",  "NICEST",
+    "QUAD",  "ANAGLYPH",  "PASSIVE",    "VERTICAL", "HORIZONTAL", "window", "pbuffer",  "FBO",
+    "ASYNC", "DRAW_SYNC", "LOCAL_SYNC", "RGBA16F",  "RGBA32F",    "EXTERN", "CORE",     "SOCKET",
+    "TCPIP", "PIPE",      "RSP",        "RDMA",     "UDT",        "SDP",    "MCIP_RSP", "anaglyph"};
 
 std::string lowered(std::string_view text) {
     std::string result(text);

@@ -94,7 +94,8 @@ void readAttributes(const Statement& block, ValueReader& reader, Compound& compo
                                                  {{"AUTO", StereoMode::Auto},
                                                   {"QUAD", StereoMode::Quad},
                                                   {"ANAGLYPH", StereoMode::Anaglyph},
-                                                  {"PASSIVE", StereoMode::Passive}},
+                                                  {"PASSIVE", StereoMode::Passive},
+                                                  {"anaglyph", StereoMode::Anaglyph}},
                                                  mode);
                        compound.stereoMode = mode;
                    }},

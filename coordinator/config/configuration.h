@@ -357,7 +357,7 @@ inline bool namesDestination(const Compound& compound) {
 }
 
 struct Configuration {
-    std::string version;  ///< of the file's form; empty: the newest
+    std::string version;  ///< of the file's form; of text empty: before 1.0
     Attributes globals;   ///< by their whole names, such as EQ_WINDOW_IATTR_HINT_STEREO
     std::string name;
     std::int64_t latency = 1;

@@ -162,21 +162,29 @@ std::optional<Equalizer> readLoadBalancer(const Statement& block, ValueReader& r
     Equalizer equalizer;
     equalizer.place = block.place;
     const std::size_t errors = reader.findings().errors();
+    struct Balance {
+        EqualizerKind kind = EqualizerKind::Load;
+        SplitMode mode = SplitMode::TwoD;
+    };
     const auto balances = [&](const Statement& each) {
-        if (const Scalar* const value = ValueReader::single(each)) {
-            equalizer.kind = value->isWord("DPLEX") ? EqualizerKind::Framerate
-                             : value->isWord("DFR") ? EqualizerKind::Dfr
-                             : value->isWord("DDS") ? EqualizerKind::Monitor
-                                                    : EqualizerKind::Load;
-            if (equalizer.kind != EqualizerKind::Load)
-                return;
-        }
-        splitMode(each, reader, equalizer.mode);
+        Balance balance;
+        reader.choice<Balance>(each,
+                               {{"2D", {EqualizerKind::Load, SplitMode::TwoD}},
+                                {"DB", {EqualizerKind::Load, SplitMode::Db}},
+                                {"HORIZONTAL", {EqualizerKind::Load, SplitMode::Horizontal}},
+                                {"VERTICAL", {EqualizerKind::Load, SplitMode::Vertical}},
+                                {"DPLEX", {EqualizerKind::Framerate}},
+                                {"DFR", {EqualizerKind::Dfr}},
+                                {"DDS", {EqualizerKind::Monitor}}},
+                               balance);
+        equalizer.kind = balance.kind;
+        equalizer.mode = balance.mode;
     };
     reader.block(block, "a loadBalancer",
                  {{"mode", balances},
                   dampingEntry(reader, equalizer),
                   boundaryEntry(reader, equalizer),
+                  resistanceEntry(reader, equalizer),
                   limitEntry(reader, equalizer),
                   framerateEntry(reader, equalizer)});
     if (reader.findings().errors() > errors)

@@ -87,7 +87,7 @@ public:
             if (!served_[i])
                 addImplicit(i);
         warnOfMissingPhases(resolved_, findings_);
-        warnOfUnseen(resolved_, findings_);
+        warnOfUnseen(configuration_, resolved_, findings_);
         return std::move(resolved_);
     }
 
@@ -364,16 +364,25 @@ private:
             configuration_,
             configuration_.layouts[destination.index.layout].views[destination.index.view]);
         using Eye = EyeSight::Eye;
-        const auto add = [&](bool isShown, Eye eye, const fabric::Vec3& place) {
+        const auto add = [&](bool isShown, Eye eye, const char* name, const fabric::Vec3& place) {
             if (!isShown)
                 return;
             own.sights.push_back({eye, sightThrough(seen, place)});
             if (!own.sights.back().sight)
-                findings_.error(own.place(), "an eye is not before the wall that it looks through");
+                findings_.error(
+                    own.compound != nullptr ? own.place() : placeOf(destination),
+                    fmt::format("the eye {} is not before the wall that it looks through; where "
+                                "the wall shows its back, exchange its bottom and top, or its "
+                                "left and right",
+                                name));
         };
-        add(own.eyes.cyclop, Eye::Cyclop, places.cyclop);
-        add(own.eyes.left, Eye::Left, places.left);
-        add(own.eyes.right, Eye::Right, places.right);
+        add(own.eyes.cyclop, Eye::Cyclop, "CYCLOP", places.cyclop);
+        add(own.eyes.left, Eye::Left, "LEFT", places.left);
+        add(own.eyes.right, Eye::Right, "RIGHT", places.right);
+    }
+
+    const Place& placeOf(const Destination& shown) const {
+        return configuration_.canvases[shown.index.canvas].segments[shown.index.segment].place;
     }
 
     /// Names count within one tree; of several output frames with one name at one time, the first

@@ -2,8 +2,12 @@
 #include "coordinator/config/unseen.h"
 
 #include <string>
+#include <unordered_map>
+#include <vector>
 
 #include <fmt/format.h>
+
+#include "coordinator/config/pixels.h"
 
 namespace eyrie::config {
 namespace {
@@ -11,8 +15,86 @@ namespace {
 /// The compounds of one destination.
 struct Makers {
     const ResolvedCompound* first = nullptr;
-    bool makeAnything = false;
+    Eyes made;
+    bool isOnHead = false;  ///< some see a wall that moves with the head
 };
+
+Eyes either(const Eyes& a, const Eyes& b) {
+    return {a.cyclop || b.cyclop, a.left || b.left, a.right || b.right};
+}
+
+Eyes both(const Eyes& a, const Eyes& b) {
+    return {a.cyclop && b.cyclop, a.left && b.left, a.right && b.right};
+}
+
+Eyes without(const Eyes& a, const Eyes& b) {
+    return {a.cyclop && !b.cyclop, a.left && !b.left, a.right && !b.right};
+}
+
+/// Those that read frames back which somebody takes, by the frames' names.
+using Sources = std::unordered_map<std::string, std::vector<const ResolvedCompound*>>;
+
+Sources sourcesOf(const ResolvedConfiguration& resolved) {
+    Sources sources;
+    for (const ResolvedCompound& each : resolved.compounds)
+        for (const ResolvedFrame& output : each.outputFrames)
+            if (output.isMatched && each.tasks.readback)
+                sources[output.name].push_back(&each);
+    return sources;
+}
+
+/// What a compound assembles of other destinations' frames. Of its own destination's there is what
+/// draws it, and what no frame is for is told elsewhere.
+Eyes assembled(const ResolvedCompound& taker, const Sources& sources) {
+    Eyes eyes;
+    for (const ResolvedFrame& input : taker.inputFrames) {
+        if (!input.isMatched)
+            return taker.eyes;
+        const auto found = sources.find(input.name);
+        if (found == sources.end())
+            continue;
+        for (const ResolvedCompound* const source : found->second)
+            if (source->destination != taker.destination)
+                eyes = either(eyes, both(taker.eyes, source->eyes));
+    }
+    return eyes;
+}
+
+std::vector<Makers> makersOf(const ResolvedConfiguration& resolved) {
+    const Sources sources = sourcesOf(resolved);
+    std::vector<Makers> makers(resolved.destinations.size());
+    for (const ResolvedCompound& each : resolved.compounds) {
+        if (!each.destination)
+            continue;
+        Makers& own = makers[*each.destination];
+        if (own.first == nullptr)
+            own.first = &each;
+        if (each.tasks.draw) {
+            own.made = either(own.made, each.eyes);
+            const std::optional<Wall>& wall =
+                each.wall ? each.wall : resolved.destinations[*each.destination].wall;
+            own.isOnHead = own.isOnHead || (wall && wall->movesWithHead);
+        }
+        if (each.tasks.assemble)
+            own.made = either(own.made, assembled(each, sources));
+    }
+    return makers;
+}
+
+bool areOfOneView(const Destination& a, const Destination& b) {
+    return a.index.canvas == b.index.canvas && a.index.layout == b.index.layout &&
+           a.index.view == b.index.view;
+}
+
+/// Whether the segments lie over one another where the view is.
+bool overlap(const Destination& a, const Destination& b, const Configuration& configuration) {
+    constexpr double kLeast = 1e-6;  // of the canvas; fractions are written with few digits
+    const std::vector<Segment>& segments = configuration.canvases[a.index.canvas].segments;
+    const Viewport common = intersection(
+        intersection(segments[a.index.segment].viewport, segments[b.index.segment].viewport),
+        configuration.layouts[a.index.layout].views[a.index.view].viewport);
+    return common.width > kLeast && common.height > kLeast;
+}
 
 std::string namesOf(const Eyes& eyes) {
     if (eyes.cyclop)
@@ -23,24 +105,24 @@ std::string namesOf(const Eyes& eyes) {
 
 }  // namespace
 
-void warnOfUnseen(const ResolvedConfiguration& resolved, Findings& findings) {
-    std::vector<Makers> makers(resolved.destinations.size());
-    for (const ResolvedCompound& each : resolved.compounds) {
-        if (!each.destination)
-            continue;
-        Makers& own = makers[*each.destination];
-        if (own.first == nullptr)
-            own.first = &each;
-        own.makeAnything = own.makeAnything || each.tasks.draw || each.tasks.assemble;
-    }
+void warnOfUnseen(const Configuration& configuration, const ResolvedConfiguration& resolved,
+                  Findings& findings) {
+    const std::vector<Makers> makers = makersOf(resolved);
     for (std::size_t i = 0; i < makers.size(); ++i) {
         const Destination& shown = resolved.destinations[i];
-        if (makers[i].first != nullptr && !makers[i].makeAnything && !shown.eyes.isEmpty() &&
-            !shown.pixelViewport.isEmpty())
+        Eyes missing = without(shown.eyes, makers[i].made);
+        if (makers[i].first == nullptr || missing.isEmpty() || shown.pixelViewport.isEmpty())
+            continue;
+        // One that makes nothing at all is not said to leave it to others.
+        for (std::size_t other = 0; other < makers.size() && !makers[i].made.isEmpty(); ++other)
+            if (areOfOneView(shown, resolved.destinations[other]) &&
+                (makers[i].isOnHead || overlap(shown, resolved.destinations[other], configuration)))
+                missing = without(missing, makers[other].made);
+        if (!missing.isEmpty())
             findings.warning(makers[i].first->place(),
                              fmt::format("no compound draws or assembles what the view shows, that "
                                          "of the eye {}: it is background",
-                                         namesOf(shown.eyes)));
+                                         namesOf(missing)));
     }
 }
 

@@ -6,8 +6,10 @@
 
 namespace eyrie::config {
 
-/// Warns of destinations whose compounds make nothing of what their views show, such as those of
-/// LEFT and RIGHT eyes of a view that is MONO.
-void warnOfUnseen(const ResolvedConfiguration& resolved, Findings& findings);
+/// Warns of eyes that views show and their compounds do not make, such as the RIGHT one where all
+/// have LEFT alone. What makes some may leave the others to segments that lie over it or, of
+/// displays on a head, which show an eye each, to any other.
+void warnOfUnseen(const Configuration& configuration, const ResolvedConfiguration& resolved,
+                  Findings& findings);
 
 }  // namespace eyrie::config

@@ -5,17 +5,17 @@
 
 namespace eyrie::config {
 
-/// Brings what was written for Equalizer 1.0 or 1.1 to what 1.2 has, as Equalizer does when it
-/// opens it; so, too, what has no canvas, whatever version it is of, since it would show nothing.
-/// Done twice it changes nothing more.
+/// Brings what was written for an Equalizer before 1.2 to what 1.2 has, as Equalizer does when it
+/// opens it. Done twice it changes nothing more.
 ///
-/// - A tree of compounds that draws straight into a channel, which no view names, gets a canvas of
-///   one segment and a layout of one view, which has the compound's wall. Trees of one channel and
-///   wall share them.
+/// - Where there is no canvas, whatever the version, a tree of compounds that draws straight into a
+///   channel gets a canvas of one segment and a layout of one view, which has the compound's wall.
+///   Trees of one channel and wall share them.
 /// - Where such trees have a group above them, they are segments of one canvas, which has the
 ///   group's wall; each shows its share, the tree's viewport, in the whole of its channel.
-/// - Where the trees, or groups above them, have eyes LEFT or RIGHT and not CYCLOP the view is
-///   stereo; a segment shows the eyes of its trees.
+/// - In those, and in files of 1.0 or of no version, a view is stereo where the trees that show it,
+///   or groups above them, have eyes LEFT or RIGHT and not CYCLOP, which they get. Segments show
+///   the eyes of their trees and CYCLOP; those that say theirs keep them.
 /// - Where no observer is, there is one of usual values, and each view has it.
 ///
 /// That a view without compound is drawn plainly holds for all versions, and is resolve()'s.

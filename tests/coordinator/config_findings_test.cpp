@@ -113,7 +113,24 @@ TEST(EqcErrors, AreEyesThatAreNotBeforeTheirWall) {
     EXPECT_THAT(firstError("config { appNode { pipe { window { channel { name \"a\" } } } }"
                            " observer { eye_cyclop [ 0 0 -2 ] } layout { view { observer 0 } }"
                            " canvas { layout 0 wall {} segment { channel \"a\" } } }"),
-                HasSubstr("not before the wall"));
+                HasSubstr("1:155 the eye CYCLOP is not before the wall that it looks through"));
+    const auto found = [](const std::string& wall) {
+        return describe(Read("config { appNode { pipe { window { channel { name \"a\" } } } }"
+                             " observer {} layout { view { observer 0 mode STEREO } }"
+                             " canvas { layout 0 wall { " +
+                             wall + " } segment { channel \"a\" } } }")
+                            .findings,
+                        "f");
+    };
+    EXPECT_EQ(found("top_left [ -.8 .5 -1 ] bottom_left [ -.8 -.5 -1 ]"), "");
+    const std::string turned = found(
+        "top_left [ -.8 -.5 -1 ] bottom_left [ -.8 .5 -1 ]"
+        " bottom_right [ .8 .5 -1 ]");
+    for (const char* const eye : {"LEFT", "RIGHT"})
+        EXPECT_THAT(turned,
+                    HasSubstr(std::string("error: the eye ") + eye +
+                              " is not before the wall that it looks through; where the wall shows "
+                              "its back, exchange its bottom and top, or its left and right"));
 }
 
 TEST(EqcWarnings, SayWhatHasNoEffect) {
@@ -435,18 +452,67 @@ TEST(EqcWarnings, SayInWhichFramesNothingIsDrawn) {
 TEST(EqcWarnings, SayWhereCompoundsMakeNothingOfWhatTheViewShows) {
     const auto found = [](const std::string& compound) {
         return describe(
-            Read(withCompounds("\ncompound { channel ( segment 0 view 0 ) " + compound + " }"))
+            Read("#Equalizer 1.2 ascii\n" +
+                 withCompounds("\ncompound { channel ( segment 0 view 0 ) " + compound + " }"))
                 .findings,
             "f");
     };
     const std::string background =
-        "f:2:1: warning: no compound draws or assembles what the view shows, that of the eye "
+        "f:3:1: warning: no compound draws or assembles what the view shows, that of the eye "
         "CYCLOP: it is background\n";
     EXPECT_EQ(found("eye [ LEFT RIGHT ]"), background);
     EXPECT_EQ(found("compound { eye [ LEFT ] } compound { eye [ RIGHT ] }"), background);
     EXPECT_EQ(found("task [ CLEAR ]"), background);
     EXPECT_EQ(found("eye [ LEFT CYCLOP ]"), "");
     EXPECT_EQ(found("compound { eye [ LEFT ] } compound { eye [ CYCLOP ] }"), "");
+}
+
+TEST(EqcWarnings, SayWhichEyeNoCompoundDraws) {
+    const auto found = [](const std::string& segments, const std::string& compounds) {
+        return describe(Read("#Equalizer 1.2 ascii\nconfig { appNode { pipe { window { channel { "
+                             "name \"a\" } channel { name \"b\" } channel { name \"c\" } } } } "
+                             "layout { view { mode STEREO } } canvas { layout 0 wall {} " +
+                             segments + " }\n" + compounds + " }")
+                            .findings,
+                        "f");
+    };
+    const std::string right =
+        "f:3:1: warning: no compound draws or assembles what the view shows, that of the eye "
+        "RIGHT: it is background\n";
+    const std::string whole = "segment { channel \"a\" }";
+    const std::string top = "compound { channel ( segment 0 view 0 ) ";
+    const std::string taken = "inputframe { name \"f\" }";
+    const std::string given = "outputframe { name \"f\" }";
+    EXPECT_EQ(found(whole, top + "eye [ LEFT CYCLOP ] }"), right);
+    EXPECT_EQ(found(whole, top + "compound { eye [ LEFT ] } compound { eye [ LEFT ] } }"), right);
+    EXPECT_EQ(found(whole, top + "compound { eye [ LEFT ] } compound { eye [ RIGHT ] } }"), "");
+    EXPECT_EQ(found(whole, top + "eye [ LEFT ] } " + top + "eye [ RIGHT ] }"), "");
+    EXPECT_EQ(
+        found(whole, top + "compound { channel \"b\" eye [ LEFT ] " + given + " } " + taken + " }"),
+        right);
+    EXPECT_EQ(found(whole, top + "compound { channel \"b\" " + given + " } " + taken + " }"), "");
+
+    const std::string ofB = "compound { channel ( segment 1 view 0 ) ";
+    const std::string over = whole + " segment { channel \"b\" }";
+    const std::string beside =
+        "segment { channel \"a\" viewport [ 0 0 .5 1 ] } segment { channel \"b\" viewport [ .5 0 "
+        ".5 1 ] }";
+    EXPECT_EQ(found(over, top + "eye [ LEFT ] } " + ofB + "eye [ RIGHT ] }"), "");
+    EXPECT_EQ(found(beside, top + "eye [ LEFT ] } " + ofB + "}"), right);
+    EXPECT_THAT(found(over, top + "} " + ofB + "task [ CLEAR ] }"),
+                HasSubstr("of the eye LEFT and RIGHT"));
+    const std::string head = " compound { wall { type HMD } } } ";
+    EXPECT_EQ(found(beside, top + "eye [ LEFT ]" + head + ofB + "eye [ RIGHT ]" + head), "");
+    EXPECT_THAT(found(beside, top + "eye [ LEFT ]" + head + ofB + "eye [ LEFT ]" + head),
+                HasSubstr(right));
+    // Another segment's picture is taken, with the eyes that it has.
+    EXPECT_EQ(found(beside, "compound { " + ofB + given + " } " + top + "task [ ASSEMBLE ] " +
+                                taken + " } }"),
+              "");
+    EXPECT_THAT(found(beside, "compound { " + ofB + "compound { eye [ LEFT ] " + given + " } }\n" +
+                                  top + "task [ ASSEMBLE ] " + taken + " } }"),
+                HasSubstr("f:4:1: warning: no compound draws or assembles what the view shows, "
+                          "that of the eye RIGHT"));
 }
 
 TEST(EqcWarnings, SayWherePartsOfTheDataComeWithoutDepth) {
@@ -505,6 +571,50 @@ TEST(EqcWarnings, SayWhereAnEqualizerTearsPicturesOfSeveralEyesOrPhases) {
         EXPECT_EQ(found(equalizer, "", "task [ CLEAR ] period 2 phase 1"), "");
     }
     EXPECT_EQ(found("framerate_equalizer", "period 2 phase 0", "period 2 phase 1"), "");
+}
+
+/// Of a compound with this loadBalancer.
+std::string balancer(const std::string& says) {
+    return withCompounds("compound { channel ( segment 0 view 0 )\nloadBalancer { " + says +
+                         " } compound {} compound {} }");
+}
+
+TEST(EqcLoadBalancers, HaveAResistanceInPixelsOrAsAShare) {
+    const auto of = [](const std::string& says) {
+        return Read(balancer(says)).configuration.compounds[0].equalizers.at(0);
+    };
+    EXPECT_EQ(of("mode 2D resistance [ 8 6 ]").resistancePixels, fabric::Vec2(8, 6));
+    EXPECT_EQ(of("mode DB resistance .25").resistanceRange, .25);
+}
+
+TEST(EqcLoadBalancers, NameAllModesThatThereAre) {
+    EXPECT_EQ(firstError(balancer("mode DPLX")),
+              "2:16 'mode' is DPLX; expected 2D, DB, HORIZONTAL, VERTICAL, DPLEX, DFR or DDS");
+    for (const auto& [mode, kind] : {std::pair{"DB", EqualizerKind::Load},
+                                     {"DPLEX", EqualizerKind::Framerate},
+                                     {"DFR", EqualizerKind::Dfr},
+                                     {"DDS", EqualizerKind::Monitor}})
+        EXPECT_EQ(Read(balancer(std::string("mode ") + mode))
+                      .configuration.compounds[0]
+                      .equalizers.at(0)
+                      .kind,
+                  kind);
+}
+
+TEST(EqcText, TakesAnaglyphInSmallLetters) {
+    const auto modeOf = [](const std::string& word) {
+        return Read(withCompounds(
+                        "compound { channel ( segment 0 view 0 ) attributes { stereo_mode " + word +
+                        " } }"))
+            .configuration.compounds.at(0)
+            .stereoMode;
+    };
+    EXPECT_EQ(modeOf("anaglyph"), StereoMode::Anaglyph);
+    EXPECT_EQ(modeOf("ANAGLYPH"), StereoMode::Anaglyph);
+    const Read global("global { EQ_COMPOUND_IATTR_STEREO_MODE anaglyph } " + withCompounds(""));
+    EXPECT_EQ(describe(global.findings, "f"), "");
+    EXPECT_THAT(firstError(withCompounds("compound { attributes { stereo_mode quad } }")),
+                HasSubstr("'stereo_mode' is quad; expected"));
 }
 
 TEST(EqcWarnings, NameBothPlacesOfANameThatTwoThingsHave) {

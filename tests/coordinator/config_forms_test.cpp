@@ -41,6 +41,7 @@ std::string foundIn(const std::string& json) {
 /// Compounds within each other.
 Configuration nested(std::size_t depth) {
     Configuration configuration;
+    configuration.observers.emplace_back();  // a text without gets one
     std::vector<Compound>* children = &configuration.compounds;
     for (std::size_t i = 0; i < depth; ++i) children = &children->emplace_back().children;
     return configuration;

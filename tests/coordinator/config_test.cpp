@@ -97,13 +97,19 @@ TEST(EqcUpgrade, GivesOldTreesWithoutViewOneOfTheirOwn) {
     }
 }
 
-TEST(EqcUpgrade, LeavesTreesOfNewerFilesAloneBesideACanvas) {
+TEST(EqcUpgrade, LeavesTreesWithoutViewAloneBesideACanvas) {
     const std::string rest =
-        " config { node { pipe { window { channel { name \"a\" } } } } canvas {}"
+        "config { node { pipe { window { channel { name \"a\" } } } }"
+        " layout { view {} } canvas { layout 0 segment { channel \"a\" } }"
         " compound { channel \"a\" } }";
-    EXPECT_EQ(Read("#Equalizer 1.1 ascii\n" + rest).resolved.destinations.size(), 1U);
-    EXPECT_TRUE(Read("#Equalizer 1.2 ascii\n" + rest).resolved.destinations.empty());
-    EXPECT_TRUE(Read(rest).resolved.destinations.empty());
+    for (const char* const header :
+         {"", "#Equalizer 1.0 ascii\n", "#Equalizer 1.1 ascii\n", "#Equalizer 1.2 ascii\n"}) {
+        const Read read(header + rest);
+        EXPECT_EQ(read.resolved.destinations.size(), 1U) << header;
+        EXPECT_THAT(describe(read.findings, "f"),
+                    HasSubstr("nothing of this compound tree is shown"))
+            << header;
+    }
 }
 
 TEST(EqcUpgrade, MakesSegmentsOfOneCanvasOfAGroup) {
@@ -175,16 +181,83 @@ TEST(EqcUpgrade, GivesTreesOfEachEyeOneView) {
     EXPECT_EQ(old.resolved.compounds[1].sights.at(0).eye, EyeSight::Eye::Right);
 }
 
-TEST(EqcUpgrade, GivesOldFilesAnObserver) {
-    const std::string rest = " config { layout { view {} } }";
-    const Configuration old = Read("#Equalizer 1.1 ascii\n" + rest).configuration;
-    EXPECT_EQ(old.observers.size(), 1U);
-    EXPECT_EQ(old.layouts[0].views[0].observer, 0U);
-    EXPECT_TRUE(Read("#Equalizer 1.2 ascii\n" + rest).configuration.observers.empty());
-    const Configuration has =
-        Read("#Equalizer 1.1 ascii\n config { observer {} layout { view {} } }").configuration;
-    EXPECT_EQ(has.observers.size(), 1U);
-    EXPECT_FALSE(has.layouts[0].views[0].observer.has_value());
+/// Two views side by side on two segments, and these compounds.
+std::string twoViews(const std::string& header, const std::string& compounds) {
+    return header +
+           "config { node { pipe { window { channel { name \"a\" } channel { name \"b\" } } } }"
+           " layout { view { viewport [ 0 0 .5 1 ] } view { viewport [ .5 0 .5 1 ] } }"
+           " canvas { layout 0 wall {} segment { channel \"a\" viewport [ 0 0 .5 1 ] }"
+           " segment { channel \"b\" viewport [ .5 0 .5 1 ] } } " +
+           compounds + " }";
+}
+
+/// Of the destinations, whose compounds draw as many.
+void expectEyes(const std::string& file, const std::vector<Eyes>& eyes) {
+    const Read old(file);
+    EXPECT_EQ(describe(old.findings, "f"), "") << file;
+    ASSERT_EQ(old.resolved.destinations.size(), eyes.size()) << file;
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        Eyes drawn;
+        for (const ResolvedCompound& each : old.resolved.compounds)
+            if (each.destination == i)
+                drawn = {drawn.cyclop || each.eyes.cyclop, drawn.left || each.eyes.left,
+                         drawn.right || each.eyes.right};
+        EXPECT_EQ(drawn, eyes[i]) << file;
+        EXPECT_EQ(old.resolved.destinations[i].eyes, eyes[i]) << file;
+    }
+    Configuration again = old.configuration;
+    upgrade(again);
+    EXPECT_EQ(again, old.configuration) << file;
+}
+
+TEST(EqcUpgrade, MakesViewsStereoWhereCompoundsOfTheOldestFilesSayTwoEyes) {
+    constexpr Eyes kTwo{false, true, true};
+    constexpr Eyes kBetween{true, false, false};
+    const std::string left = "compound { channel ( segment 0 view 0 ) ";
+    const std::string right = "compound { channel ( segment 1 view 1 ) ";
+    for (const char* const header : {"", "#Equalizer 1.0 ascii\n"}) {
+        const auto expect = [&](const std::string& compounds, const std::vector<Eyes>& eyes) {
+            expectEyes(twoViews(header, compounds), eyes);
+        };
+        expect(left + "eye [ LEFT RIGHT ] } " + right + "}", {kTwo, kBetween});
+        expect("compound { eye [ LEFT RIGHT ] " + left + "} " + right + "} }", {kTwo, kTwo});
+        expect("compound { eye [ LEFT RIGHT ] " + left + "} " + right + "eye [ CYCLOP ] } }",
+               {kTwo, kBetween});
+        expect(left + "eye [ LEFT ] } " + right + "eye [ RIGHT ] }",
+               {{false, true, false}, {false, false, true}});
+        expect(left + "eye [ LEFT ] } " + left + "eye [ RIGHT ] }", {kTwo, kBetween});
+        expect(left + "eye [ CYCLOP LEFT RIGHT ] }", {kBetween, kBetween});
+    }
+    expectEyes(twoViews("#Equalizer 1.1 ascii\n", left + "eye [ CYCLOP LEFT RIGHT ] }"),
+               {kBetween, kBetween});
+    EXPECT_FALSE(Read(twoViews("#Equalizer 1.1 ascii\n", left + "eye [ LEFT RIGHT ] }"))
+                     .configuration.layouts[0]
+                     .views[0]
+                     .isStereo);
+}
+
+TEST(EqcUpgrade, LeavesOldSegmentsTheEyesThatTheySay) {
+    const Configuration old =
+        Read(
+            "config { node { pipe { window { channel { name \"a\" } } } } layout { view {} }"
+            " canvas { layout 0 segment { channel \"a\" eye [ LEFT ] } }"
+            " compound { channel ( segment 0 view 0 ) eye [ LEFT RIGHT ] } }")
+            .configuration;
+    EXPECT_TRUE(old.layouts[0].views[0].isStereo);
+    EXPECT_EQ(old.canvases[0].segments[0].eyes, (Eyes{false, true, false}));
+}
+
+TEST(EqcUpgrade, GivesFilesOfEveryVersionAnObserver) {
+    for (const std::string header :
+         {"", "#Equalizer 1.0 ascii\n", "#Equalizer 1.1 ascii\n", "#Equalizer 1.2 ascii\n"}) {
+        const Configuration none = Read(header + "config { layout { view {} } }").configuration;
+        EXPECT_EQ(none.observers.size(), 1U) << header;
+        EXPECT_EQ(none.layouts[0].views[0].observer, 0U) << header;
+        const Configuration has =
+            Read(header + "config { observer {} layout { view {} } }").configuration;
+        EXPECT_EQ(has.observers.size(), 1U) << header;
+        EXPECT_FALSE(has.layouts[0].views[0].observer.has_value()) << header;
+    }
 }
 
 TEST(Resolve, MakesAPlainCompoundOfAViewThatNoneShows) {

@@ -195,6 +195,17 @@ TEST(Plan, AnaglyphsTakeTheirMasksFromTheCompound) {
     EXPECT_EQ(pictures[0].colour[0], (fabric::Rgba{7, 2, 9, 255}));
 }
 
+TEST(Plan, TakesTheStereoModeOfTheGlobalsInBothSpellings) {
+    config::Configuration stereo = room(
+        "observer {} layout { view { observer 0 mode STEREO } } canvas { layout 0 wall {} "
+        "segment { channel \"a\" eye [ LEFT ] } segment { channel \"b\" eye [ RIGHT ] } }");
+    for (const auto& [word, pictures] :
+         {std::pair{"PASSIVE", 2U}, {"ANAGLYPH", 1U}, {"anaglyph", 1U}}) {
+        stereo.globals = {{"EQ_COMPOUND_IATTR_STEREO_MODE", config::Attribute::Words{{word}}}};
+        EXPECT_EQ(planned(stereo, canvasOf(20, 10)).pictures.size(), pictures) << word;
+    }
+}
+
 TEST(Plan, EyesOfSegmentsOfTheirOwnArePicturesOfTheirOwn) {
     const config::Configuration passive = room(
         "observer {} layout { view { observer 0 mode STEREO } } canvas { layout 0 wall {} "
