@@ -108,11 +108,12 @@ TEST(MeshImport, ByPartsGivesTheSameOfAnOpenMeshButForItsBacks) {
 TEST(MeshImport, ByPartsIsNotCoarsenedByFacesWithACornerTwiceEither) {
     TriangleMesh ball = synthesizeMesh(60000, 3);
     const auto far = static_cast<std::uint32_t>(ball.positions.size());
-    ball.positions.emplace_back(1e12, 0, 0);
-    ball.triangles.insert(ball.triangles.begin() + 100, {{far, far, far}, {0, far, far}});
+    ball.positions.insert(ball.positions.end(), 2, {1e12, 0, 0});
+    ball.triangles.insert(ball.triangles.begin() + 100,
+                          {{far, far, far}, {0, far, far}, {far, far + 1, 0}});
     expectSameByParts(ball);
     const test::TemporaryFolder folder;
-    ball.triangles.assign(5, {far, far, 0});
+    ball.triangles.assign(5, {far, far + 1, 0});
     ASSERT_TRUE(writePly(ball, folder.file("m.ply")).ok());
     EXPECT_THAT(
         importByParts(folder.file("m.ply"), folder.file("m.eym"), 16384, {}).status().message(),
