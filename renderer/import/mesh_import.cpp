@@ -129,12 +129,6 @@ absl::StatusOr<MeshImportReport> withinMemory(const std::string& name, const Wor
         fmt::format("{}: memory ran out during the import; free memory or split the mesh", name));
 }
 
-/// Of one, or of the first and how many more.
-std::string nameOf(const std::vector<std::string>& paths) {
-    return paths.size() == 1 ? paths.front()
-                             : fmt::format("{} and {} more", paths.front(), paths.size() - 1);
-}
-
 std::uint64_t bytesOf(const std::vector<std::string>& paths) {
     std::uint64_t sum = 0;
     for (const std::string& path : paths) {
