@@ -198,14 +198,18 @@ std::vector<std::uint32_t> duplicatesAmong(std::span<const SpooledTriangle> tria
 
 /// Closes the gaps that `numbers` leave. Rows move forward only, behind those that are read.
 absl::Status removeTriangles(MeshSpool& spool, const std::vector<bool>& isGone) {
+    std::fill(spool.isUsed.begin(), spool.isUsed.end(), false);
     std::uint64_t kept = 0;
     std::vector<SpooledTriangle> rows;
     RETURN_IF_ERROR(spool.triangles.forBlocks(
         0, spool.triangleCount, [&](std::span<const SpooledTriangle> block) {
             rows.clear();
-            for (const SpooledTriangle& row : block)
-                if (!isGone[row.number])
-                    rows.push_back(row);
+            for (const SpooledTriangle& row : block) {
+                if (isGone[row.number])
+                    continue;
+                rows.push_back(row);
+                for (const std::uint32_t corner : row.vertices) spool.isUsed[corner] = true;
+            }
             return spool.triangles.write(std::exchange(kept, kept + rows.size()), rows);
         }));
     spool.triangleCount = kept;

@@ -120,6 +120,18 @@ TEST(MeshImport, ByPartsIsNotCoarsenedByFacesWithACornerTwiceEither) {
         testing::AllOf(HasSubstr("m.ply"), HasSubstr("found 5 triangles, none with any area")));
 }
 
+/// What is left is exact in single precision; the faces that are there twice are not.
+TEST(MeshImport, ByPartsKeepsNoMorePrecisionForFacesThatAreThereTwice) {
+    TriangleMesh ball = synthesizeMesh(60000, 3);
+    for (fabric::Vec3& at : ball.positions) at = glm::round(at * 65536.0) / 65536.0;
+    const TriangleMesh once = ball;
+    const auto copies = static_cast<std::uint32_t>(once.positions.size());
+    for (const fabric::Vec3& at : once.positions) ball.positions.push_back(at * (1 - 1e-13));
+    for (const auto& [a, b, c] : once.triangles)
+        ball.triangles.push_back({copies + a, copies + b, copies + c});
+    expectSameByParts(ball, {.pack = {.keepsExact = true}});
+}
+
 /// A ball whose colours vanish from level to level.
 TriangleMesh speckledBall() {
     TriangleMesh ball = synthesizeMesh(60000, 3);
