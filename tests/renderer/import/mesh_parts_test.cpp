@@ -80,12 +80,12 @@ void expectSameButForBacks(const std::string& parts, const std::string& whole) {
 }
 
 void expectSameByParts(const TriangleMesh& source, const MeshImportOptions& options = {},
-                       const TwoFiles& expectSame = expectSameBytes) {
+                       const TwoFiles& expectSame = expectSameBytes, std::uint64_t atOnce = 16384) {
     const test::TemporaryFolder folder;
     const std::string path = folder.file("m.ply");
     ASSERT_TRUE(writePly(source, path).ok());
     const auto whole = importMesh({path}, folder.file("whole.eym"), options);
-    const auto parted = importByParts(path, folder.file("parts.eym"), 16384, options);
+    const auto parted = importByParts(path, folder.file("parts.eym"), atOnce, options);
     ASSERT_TRUE(whole.ok() && parted.ok()) << whole.status() << parted.status();
     EXPECT_EQ(parted->counts, whole->counts);
     EXPECT_EQ(parted->vertices, whole->vertices);
@@ -224,6 +224,13 @@ TriangleMesh twoRings(std::uint32_t around) {
 /// Parts come to half their triangles, which two of them together are few enough to be drawn as.
 TEST(MeshImport, ByPartsGivesTheSameBytesWhereTwoPartsAreNoMoreThanANode) {
     expectSameByParts(twoRings(2731));
+}
+
+/// Of parts that are too large to be simplified, two together are still small enough for points.
+TEST(MeshImport, ByPartsGivesTheSameBytesWherePointsStandForSeveralParts) {
+    expectSameByParts(soup(4, 70000),
+                      {.pack = {.normals = NormalSource::Crease, .creaseDegrees = 5}},
+                      expectSameBytes, 100000);
 }
 
 TEST(MeshImport, CountsTheNodesThatPointsStandFor) {
