@@ -198,8 +198,9 @@ absl::StatusOr<MeshImportReport> importWhole(const std::vector<std::string>& pat
     if (isByFormat)
         options.pack.normals = source.normals.empty() ? NormalSource::Smooth : NormalSource::File;
     ASSIGN_OR_RETURN(const std::uint64_t hash, meshSourceHash(paths));
-    const std::uint64_t needed = importBytes(source.triangles.size(), source.positions.size(), 0,
-                                             options, !source.textureCoordinates.empty());
+    std::uint64_t needed = importBytes(source.triangles.size(), source.positions.size(), 0, options,
+                                       !source.textureCoordinates.empty());
+    for (const mesh::Image& image : source.images) needed += image.blocks.size();
     if (options.memoryBytes != 0 && needed > options.memoryBytes)
         return exceedsMemory(nameOf(paths), needed, options, remedy);
     const double readSeconds = watch.lap();
