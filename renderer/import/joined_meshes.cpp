@@ -186,4 +186,9 @@ absl::StatusOr<TriangleMesh> readMeshes(std::span<const std::string> paths,
     return Joining(paths, control, reading).run();
 }
 
+std::string nameOf(std::span<const std::string> paths) {
+    return paths.size() == 1 ? paths.front()
+                             : fmt::format("{} and {} more", paths.front(), paths.size() - 1);
+}
+
 }  // namespace eyrie::import

@@ -21,4 +21,7 @@ absl::StatusOr<TriangleMesh> readMeshes(std::span<const std::string> paths,
                                         const ImportControl& control = {},
                                         const MeshReading& reading = {});
 
+/// In messages: of one, or of the first and how many more.
+std::string nameOf(std::span<const std::string> paths);
+
 }  // namespace eyrie::import

@@ -129,12 +129,6 @@ absl::StatusOr<MeshImportReport> withinMemory(const std::string& name, const Wor
         fmt::format("{}: memory ran out during the import; free memory or split the mesh", name));
 }
 
-/// Of one, or of the first and how many more.
-std::string nameOf(const std::vector<std::string>& paths) {
-    return paths.size() == 1 ? paths.front()
-                             : fmt::format("{} and {} more", paths.front(), paths.size() - 1);
-}
-
 std::uint64_t bytesOf(const std::vector<std::string>& paths) {
     std::uint64_t sum = 0;
     for (const std::string& path : paths) {
@@ -204,8 +198,9 @@ absl::StatusOr<MeshImportReport> importWhole(const std::vector<std::string>& pat
     if (isByFormat)
         options.pack.normals = source.normals.empty() ? NormalSource::Smooth : NormalSource::File;
     ASSIGN_OR_RETURN(const std::uint64_t hash, meshSourceHash(paths));
-    const std::uint64_t needed = importBytes(source.triangles.size(), source.positions.size(), 0,
-                                             options, !source.textureCoordinates.empty());
+    std::uint64_t needed = importBytes(source.triangles.size(), source.positions.size(), 0, options,
+                                       !source.textureCoordinates.empty());
+    for (const mesh::Image& image : source.images) needed += image.blocks.size();
     if (options.memoryBytes != 0 && needed > options.memoryBytes)
         return exceedsMemory(nameOf(paths), needed, options, remedy);
     const double readSeconds = watch.lap();

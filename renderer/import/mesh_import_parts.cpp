@@ -9,6 +9,7 @@
 #include <absl/status/status.h>
 
 #include "fabric/status.h"
+#include "renderer/import/joined_meshes.h"
 #include "renderer/import/mesh_backs.h"
 #include "renderer/import/mesh_part.h"
 #include "renderer/import/mesh_sharing.h"
@@ -159,8 +160,9 @@ absl::StatusOr<MeshImportReport> importInParts(std::span<const std::string> path
     report.notes = std::move(spool.notes);
     report.seconds.read = watch.lap();
 
-    RETURN_IF_ERROR(
-        placeOnLattice(spool, options.pack.latticeBits, atOnce, path, report.counts, control));
+    RETURN_IF_ERROR(fabric::withContext(
+        placeOnLattice(spool, options.pack.latticeBits, atOnce, path, report.counts, control),
+        nameOf(paths)));
     ASSIGN_OR_RETURN(const std::optional<std::vector<bool>> isBehind,
                      findBacks(spool, atOnce, path, control));
     report.seconds.pack = watch.lap();

@@ -35,7 +35,7 @@ PartSurface surfaceOf(const PartMesh& own, mesh::LodPart lod, double reachMetres
     surface.reachMetres = reachMetres;
     surface.lod.height = lod.height;
     surface.mesh.lattice = own.mesh.lattice;
-    surface.isEndless = lod.patch.triangles.size() > options.mostUnsimplified();
+    surface.isEndless = lod.patch.triangles.size() > options.mostUseful();
     if (surface.isEndless)
         return surface;
     surface.lod = std::move(lod);
@@ -150,18 +150,15 @@ absl::StatusOr<WrittenPart> writePart(const PartWork& work, std::uint32_t part,
 absl::StatusOr<WrittenPart> writeAbove(const PartWork& work, const SplitNode& node,
                                        PartSurface left, PartSurface right,
                                        const ImportControl& control) {
-    std::vector<std::uint32_t> ofLeft, ofRight;
-    PartMesh both = merged(left, right, ofLeft, ofRight);
-    appendTriangles(both, left.lod, ofLeft);
-    appendTriangles(both, right.lod, ofRight);
+    mesh::LodOptions options{.leafTriangles = work.options.leafTriangles};
     mesh::KdTree tree = treeOver(left, right);
-    const std::vector<std::uint32_t> goesOnAt =
-        sharedOutside(both.sharedBy, node.firstPart, node.lastPart);
-    const mesh::LodOptions options{.goesOnAt = goesOnAt,
-                                   .leafTriangles = work.options.leafTriangles};
+    PartMesh both;
+    both.mesh.lattice = work.spool.lattice;
+    mesh::Pockets pockets = left.pockets;
+    pockets.add(right.pockets);
     WrittenPart written;
     mesh::LodTree lod;
-    if (left.isEndless || right.isEndless) {
+    if (left.isEndless || right.isEndless || tree.order.size() > options.mostUseful()) {
         const double bound = std::max(left.boundSteps, right.boundSteps);
         const mesh::Lattice& lattice = work.spool.lattice;
         lod.geometry.resize(1);
@@ -175,8 +172,16 @@ absl::StatusOr<WrittenPart> writeAbove(const PartWork& work, const SplitNode& no
         written.surface.boxMax = tree.nodes[0].boxMax;
         written.surface.lod.height = std::max(left.lod.height, right.lod.height);
     } else {
+        std::vector<std::uint32_t> ofLeft, ofRight;
+        both = merged(left, right, ofLeft, ofRight);
+        appendTriangles(both, left.lod, ofLeft);
+        appendTriangles(both, right.lod, ofRight);
+        const std::vector<std::uint32_t> goesOnAt =
+            sharedOutside(both.sharedBy, node.firstPart, node.lastPart);
+        options.goesOnAt = goesOnAt;
         mesh::LodParts parts;
         parts.leaves = {{}, std::move(left.lod), std::move(right.lod)};
+        left = right = {};  // memory that is needed now
         ASSIGN_OR_RETURN(lod,
                          mesh::buildLodTree(both.mesh, tree, options, {}, control.stop, &parts));
         written.levels = lod.levels;
@@ -184,8 +189,7 @@ absl::StatusOr<WrittenPart> writeAbove(const PartWork& work, const SplitNode& no
         written.surface = surfaceOf(both, std::move(parts.root), lod.colourReachMetres[0],
                                     tree.nodes[0], options);
     }
-    written.surface.pockets.add(left.pockets);
-    written.surface.pockets.add(right.pockets);
+    written.surface.pockets = pockets;
     written.errorMetres = lod.errorMetres[0];
     written.nodes = 1;
     // Of the node alone: its own triangles, as a leaf has them.
@@ -200,8 +204,8 @@ absl::StatusOr<WrittenPart> writeAbove(const PartWork& work, const SplitNode& no
     lod.errorMetres.resize(1);
     lod.colourReachMetres.resize(1);
     lod.normalErrors.resize(1);
-    ASSIGN_OR_RETURN(written.offset, appendEym(work, both.mesh, tree, lod,
-                                               {{written.surface.pockets}, {}}, control.stop));
+    ASSIGN_OR_RETURN(written.offset,
+                     appendEym(work, both.mesh, tree, lod, {{pockets}, {}}, control.stop));
     return written;
 }
 

@@ -35,7 +35,8 @@ struct PartSurface {
     mesh::LodPart lod;
     double boundSteps = 0;   ///< of lod.patch
     double reachMetres = 0;  ///< mesh::LodTree::colourReachMetres of its root
-    /// Too many triangles are left for any node above to be simplified: they are not kept.
+    /// Too many triangles are left for any node above to be simplified, or drawn as points: they
+    /// are not kept.
     bool isEndless = false;
     mesh::Pockets pockets;
     glm::uvec3 boxMin{0U};

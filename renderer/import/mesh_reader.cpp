@@ -179,7 +179,7 @@ absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportContr
         mesh.normals = {};
     if (endsWith(path, ".obj"))
         noteMissingMaterials(text, path, mesh);
-    RETURN_IF_ERROR(loadTextures(mesh, path, control));
+    RETURN_IF_ERROR(loadTextures(mesh, path, control, reading.memoryBytes));
     limitLights(mesh);
     return mesh;
 }

@@ -26,8 +26,8 @@ std::string meshSourceEndings();
 
 struct MeshReading {
     bool onlyNormalsOfEdges = false;  ///< files that are not of statesEdges() have none then
-    /// That Assimp may take in its process, or reading .jdn here; 0: what sound files need. PLY
-    /// takes a constant times the file's size, which its header tells (measurePly).
+    /// That Assimp may take in its process, textures in theirs, or reading .jdn here; 0: what sound
+    /// files need. PLY takes a constant times the file's size, which its header tells (measurePly).
     std::uint64_t memoryBytes = 0;
 };
 

@@ -53,17 +53,43 @@ absl::Status addPiece(MeshSpool& spool, std::uint64_t first, TriangleMesh& piece
     spool.hasNormals = spool.hasNormals || !piece.normals.empty();
     spool.hasColours = spool.hasColours || !piece.colours.empty();
     spool.vertexCount += piece.positions.size();
-    spool.collapsedTriangles += std::erase_if(piece.triangles, [](const mesh::Triangle& corners) {
-        return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
-    });
     for (mesh::Triangle& triangle : piece.triangles)
-        for (std::uint32_t& corner : triangle) {
-            corner += static_cast<std::uint32_t>(first);
-            spool.isUsed[corner] = true;
-        }
+        for (std::uint32_t& corner : triangle) corner += static_cast<std::uint32_t>(first);
     RETURN_IF_ERROR(spool.source.write(spool.sourceTriangles, piece.triangles));
     spool.sourceTriangles += piece.triangles.size();
     return absl::OkStatus();
+}
+
+/// Those that draw nothing wherever they lie, and so must not reach where nothing else does. Rows
+/// move forward only, behind those that are read.
+absl::Status removeCollapsed(MeshSpool& spool, const ImportControl& control) {
+    RowCache<fabric::Vec3> positions(spool.positions);
+    spool.isUsed.assign(spool.vertexCount, false);
+    const std::uint64_t total = std::exchange(spool.sourceTriangles, 0);
+    std::vector<mesh::Triangle> rows;
+    return spool.source.forBlocks(
+        0, total, [&](std::span<const mesh::Triangle> block) -> absl::Status {
+            RETURN_IF_ERROR(control.check());
+            control.report(
+                "welding",
+                0.4 * static_cast<double>(spool.sourceTriangles + spool.collapsedTriangles) /
+                    static_cast<double>(total));
+            rows.clear();
+            for (const mesh::Triangle& triangle : block) {
+                std::array<fabric::Vec3, 3> at;
+                for (std::size_t i = 0; i < 3; ++i) {
+                    ASSIGN_OR_RETURN(const fabric::Vec3* const corner, positions.at(triangle[i]));
+                    at[i] = *corner;
+                }
+                if (at[0] == at[1] || at[1] == at[2] || at[2] == at[0])
+                    continue;
+                rows.push_back(triangle);
+                for (const std::uint32_t corner : triangle) spool.isUsed[corner] = true;
+            }
+            spool.collapsedTriangles += block.size() - rows.size();
+            return spool.source.write(
+                std::exchange(spool.sourceTriangles, spool.sourceTriangles + rows.size()), rows);
+        });
 }
 
 absl::StatusOr<mesh::Lattice> latticeOf(const MeshSpool& spool, int bits) {
@@ -96,7 +122,8 @@ absl::Status writeTriangles(MeshSpool& spool, const ImportControl& control) {
     return spool.source.forBlocks(
         0, spool.sourceTriangles, [&](std::span<const mesh::Triangle> block) -> absl::Status {
             RETURN_IF_ERROR(control.check());
-            control.report("welding", 0.8 * number / static_cast<double>(spool.sourceTriangles));
+            control.report("welding",
+                           0.4 + 0.4 * number / static_cast<double>(spool.sourceTriangles));
             rows.clear();
             for (const mesh::Triangle& triangle : block) {
                 SpooledTriangle row{{}, triangle, number++};
@@ -171,14 +198,18 @@ std::vector<std::uint32_t> duplicatesAmong(std::span<const SpooledTriangle> tria
 
 /// Closes the gaps that `numbers` leave. Rows move forward only, behind those that are read.
 absl::Status removeTriangles(MeshSpool& spool, const std::vector<bool>& isGone) {
+    std::fill(spool.isUsed.begin(), spool.isUsed.end(), false);
     std::uint64_t kept = 0;
     std::vector<SpooledTriangle> rows;
     RETURN_IF_ERROR(spool.triangles.forBlocks(
         0, spool.triangleCount, [&](std::span<const SpooledTriangle> block) {
             rows.clear();
-            for (const SpooledTriangle& row : block)
-                if (!isGone[row.number])
-                    rows.push_back(row);
+            for (const SpooledTriangle& row : block) {
+                if (isGone[row.number])
+                    continue;
+                rows.push_back(row);
+                for (const std::uint32_t corner : row.vertices) spool.isUsed[corner] = true;
+            }
             return spool.triangles.write(std::exchange(kept, kept + rows.size()), rows);
         }));
     spool.triangleCount = kept;
@@ -223,7 +254,6 @@ absl::StatusOr<MeshSpool> spoolMeshes(std::span<const std::string> paths,
             return absl::InvalidArgumentError(fmt::format(
                 "{}: with it the mesh has more than 2^32 vertices; import the files in parts",
                 paths[i]));
-        spool.isUsed.resize(first + size.vertices, false);
         std::uint64_t dropped = 0;
         std::vector<std::string> notes;
         const auto take = [&](TriangleMesh& piece) {
@@ -248,6 +278,7 @@ absl::Status placeOnLattice(MeshSpool& spool, int latticeBits, std::uint64_t atO
                             const std::string& outPath, PackCounts& counts,
                             const ImportControl& control) {
     control.report("welding", 0);
+    RETURN_IF_ERROR(removeCollapsed(spool, control));
     RETURN_IF_ERROR(checkAreLeft(spool, spool.sourceTriangles));
     ASSIGN_OR_RETURN(spool.lattice, latticeOf(spool, latticeBits));
     RETURN_IF_ERROR(writeTriangles(spool, control));

@@ -35,16 +35,17 @@ struct MeshSpool {
     RowFile<fabric::Rgba> colours;  ///< againstPlain(): zero where the source has none
     bool hasNormals = false;
     bool hasColours = false;
-    RowFile<mesh::Triangle> source;  ///< its triangles, but for those with a corner twice
+    RowFile<mesh::Triangle> source;  ///< its triangles
     std::uint64_t vertexCount = 0;
-    std::uint64_t sourceTriangles = 0;     ///< in `source`
-    std::uint64_t collapsedTriangles = 0;  ///< those that are not in it
+    std::uint64_t sourceTriangles = 0;
     std::uint64_t droppedFaces = 0;
     std::vector<std::string> notes;
-    std::vector<bool> isUsed;  ///< by a triangle; of each vertex
 
+    // After placeOnLattice():
+    std::uint64_t collapsedTriangles = 0;  ///< with two corners in one place: gone from `source`
+    std::vector<bool> isUsed;              ///< by a triangle; of each vertex
     mesh::Lattice lattice;
-    RowFile<SpooledTriangle> triangles;  ///< in their order, after placeOnLattice()
+    RowFile<SpooledTriangle> triangles;  ///< in their order
     std::uint64_t triangleCount = 0;
 };
 

@@ -7,6 +7,8 @@
 #include <absl/status/status.h>
 #include <fmt/format.h>
 
+#include "fabric/status.h"
+
 namespace eyrie::import {
 namespace {
 
@@ -44,6 +46,8 @@ bool decodeRow(const Bytes& file, std::size_t at, std::span<std::uint8_t> row) {
     return filled == row.size() && at <= file.size();
 }
 
+std::uint32_t channelsOf(const Bytes& file) { return file.word(4) < 3 ? 1 : file.word(10); }
+
 void setChannel(fabric::Rgba& texel, std::uint32_t channel, std::uint32_t channels,
                 std::uint8_t value) {
     if (channels < 3 && channel == 0)
@@ -60,20 +64,27 @@ bool looksLikeSgi(std::span<const std::byte> bytes) {
     return bytes.size() >= kHeaderBytes && Bytes(bytes).word(0) == 0x01DA;
 }
 
-absl::StatusOr<std::vector<fabric::Rgba>> decodeSgi(std::span<const std::byte> bytes,
-                                                    mesh::ImageShape& shape) {
+absl::StatusOr<mesh::ImageShape> sgiShapeOf(std::span<const std::byte> bytes) {
     const Bytes file(bytes);
-    const bool isCoded = file.byte(2) != 0;
-    const std::uint32_t dimensions = file.word(4);
+    mesh::ImageShape shape;
     shape.width = file.word(6);
-    shape.height = dimensions < 2 ? 1 : file.word(8);
-    const std::uint32_t channels = dimensions < 3 ? 1 : file.word(10);
+    shape.height = file.word(4) < 2 ? 1 : file.word(8);
+    const std::uint32_t channels = channelsOf(file);
     if (file.byte(3) != 1 || channels < 1 || channels > 4 || shape.width < 1 || shape.height < 1 ||
         shape.width > mesh::kMaxImageSide || shape.height > mesh::kMaxImageSide)
         return absl::InvalidArgumentError(fmt::format(
             "has {} x {} texels of {} channels of {} bytes, expected at most {} a side, "
             "4 and 1",
             shape.width, shape.height, channels, file.byte(3), mesh::kMaxImageSide));
+    return shape;
+}
+
+absl::StatusOr<std::vector<fabric::Rgba>> decodeSgi(std::span<const std::byte> bytes,
+                                                    mesh::ImageShape& shape) {
+    ASSIGN_OR_RETURN(shape, sgiShapeOf(bytes));
+    const Bytes file(bytes);
+    const bool isCoded = file.byte(2) != 0;
+    const std::uint32_t channels = channelsOf(file);
     const std::size_t rows = std::size_t{shape.height} * channels;
     if (kHeaderBytes + rows * (isCoded ? 9 : shape.width) > file.size())
         return absl::InvalidArgumentError("is truncated");

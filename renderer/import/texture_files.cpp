@@ -53,21 +53,40 @@ bool isFile(const fs::path& path) {
     return fs::is_regular_file(path, ignored);
 }
 
-absl::StatusOr<std::vector<fabric::Rgba>> decode(std::span<const std::byte> bytes,
-                                                 mesh::ImageShape& shape) {
+const stbi_uc* dataOf(std::span<const std::byte> bytes) {
+    return reinterpret_cast<const stbi_uc*>(bytes.data());
+}
+
+int sizeOf(std::span<const std::byte> bytes) {
+    return static_cast<int>(std::min<std::size_t>(bytes.size(), 1U << 30));
+}
+
+/// Its sides, as its header has them.
+absl::StatusOr<mesh::ImageShape> shapeOf(std::span<const std::byte> bytes) {
     if (looksLikeSgi(bytes))
-        return decodeSgi(bytes, shape);
-    const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
-    const int size = static_cast<int>(std::min<std::size_t>(bytes.size(), 1U << 30));
+        return sgiShapeOf(bytes);
     int width = 0, height = 0, channels = 0;
-    if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0)
+    if (stbi_info_from_memory(dataOf(bytes), sizeOf(bytes), &width, &height, &channels) == 0)
         return absl::InvalidArgumentError("is of no format known here");
     constexpr int kMost = mesh::kMaxImageSide;
     if (width < 1 || height < 1 || width > kMost || height > kMost)
         return absl::InvalidArgumentError(
             fmt::format("has {} x {} texels, more than {} a side", width, height, kMost));
+    mesh::ImageShape shape;
+    shape.width = static_cast<std::uint32_t>(width);
+    shape.height = static_cast<std::uint32_t>(height);
+    return shape;
+}
+
+absl::StatusOr<std::vector<fabric::Rgba>> decode(std::span<const std::byte> bytes,
+                                                 mesh::ImageShape& shape) {
+    if (looksLikeSgi(bytes))
+        return decodeSgi(bytes, shape);
+    ASSIGN_OR_RETURN(shape, shapeOf(bytes));
+    int width = 0, height = 0, channels = 0;
     const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> texels(
-        stbi_load_from_memory(data, size, &width, &height, &channels, 4), &stbi_image_free);
+        stbi_load_from_memory(dataOf(bytes), sizeOf(bytes), &width, &height, &channels, 4),
+        &stbi_image_free);
     if (!texels)
         return absl::InvalidArgumentError(fmt::format("is damaged ({})", stbi_failure_reason()));
     shape.width = static_cast<std::uint32_t>(width);
@@ -102,10 +121,13 @@ public:
     }
 
     absl::StatusOr<TriangleMesh> run();
+    /// ResourceExhausted where run() takes more, as the images' headers have it.
+    absl::Status checkMemory(std::uint64_t memoryBytes) const;
 
 private:
+    absl::StatusOr<std::span<const std::byte>> open(std::size_t texture,
+                                                    std::optional<mesh::MappedFile>& file) const;
     absl::Status load(std::size_t texture);
-    absl::StatusOr<mesh::Image> read(std::size_t texture) const;
     AlphaUse alphaUseOf(std::size_t texture, const std::vector<fabric::Rgba>& texels);
     void settleAlpha(std::size_t texture, const AlphaUse& use);
 
@@ -154,17 +176,44 @@ void Loading::settleAlpha(std::size_t texture, const AlphaUse& use) {
     }
 }
 
+/// Its bytes, those of `file` where the mesh has only its name.
+absl::StatusOr<std::span<const std::byte>> Loading::open(
+    std::size_t texture, std::optional<mesh::MappedFile>& file) const {
+    const TextureSource& source = mesh_.textures[texture];
+    if (!source.bytes.empty())
+        return source.bytes;
+    const std::string found = findTexture(source.name, path_);
+    if (found.empty())
+        return absl::NotFoundError("is not there");
+    ASSIGN_OR_RETURN(file, mesh::MappedFile::open(found));
+    return file->bytes();
+}
+
+absl::Status Loading::checkMemory(std::uint64_t memoryBytes) const {
+    constexpr std::uint64_t kTexelBytes = 2 * sizeof(fabric::Rgba);  // as decoded, and copied
+    std::uint64_t largest = 0, coded = 0;
+    for (std::size_t i = 0; i < mesh_.textures.size(); ++i) {
+        std::optional<mesh::MappedFile> file;
+        const auto bytes = open(i, file);
+        const auto shape = bytes.ok() ? shapeOf(*bytes) : bytes.status();
+        if (!shape.ok())
+            continue;  // which run() says
+        largest = std::max(largest, std::uint64_t{shape->width} * shape->height);
+        coded += shape->bytesFrom(0);
+    }
+    const std::uint64_t needed = kTexelBytes * largest + coded;
+    if (needed <= memoryBytes)
+        return absl::OkStatus();
+    return absl::ResourceExhaustedError(
+        fmt::format("reading its {} textures takes about {} MiB of memory, of which it may use {}; "
+                    "make them smaller, or allow more memory",
+                    mesh_.textures.size(), (needed >> 20) + 1, memoryBytes >> 20));
+}
+
 absl::Status Loading::load(std::size_t texture) {
     const TextureSource& source = mesh_.textures[texture];
     std::optional<mesh::MappedFile> file;
-    std::span<const std::byte> bytes = source.bytes;
-    if (bytes.empty()) {
-        const std::string found = findTexture(source.name, path_);
-        if (found.empty())
-            return absl::NotFoundError("is not there");
-        ASSIGN_OR_RETURN(file, mesh::MappedFile::open(found));
-        bytes = file->bytes();
-    }
+    ASSIGN_OR_RETURN(const std::span<const std::byte> bytes, open(texture, file));
     mesh::ImageShape shape;
     ASSIGN_OR_RETURN(std::vector<fabric::Rgba> texels, decode(bytes, shape));
     const AlphaUse use = alphaUseOf(texture, texels);
@@ -199,6 +248,19 @@ absl::StatusOr<TriangleMesh> Loading::run() {
                         "are taken for opaque",
                         takenForOpaque_, mesh_.textures.size()));
     return std::move(result_);
+}
+
+/// In a process of its own, too; what else happens there happens to who reads the images.
+absl::Status checkMemory(const TriangleMesh& mesh, const std::string& path,
+                         std::uint64_t memoryBytes, const ReadingLimits& limits,
+                         const ImportControl& control) {
+    const auto check = [&]() -> absl::StatusOr<TriangleMesh> {
+        RETURN_IF_ERROR(Loading(mesh, path).checkMemory(memoryBytes));
+        return TriangleMesh();
+    };
+    const absl::Status checked = readInOwnProcess(check, limits, control).status();
+    return absl::IsResourceExhausted(checked) ? fabric::withContext(checked, path)
+                                              : absl::OkStatus();
 }
 
 /// Has done with what is said until images are there.
@@ -299,13 +361,15 @@ std::string findTexture(const std::string& name, const std::string& path) {
     return found.empty() && plain != name ? findAsNamed(plain, path) : found;
 }
 
-absl::Status loadTextures(TriangleMesh& mesh, const std::string& path,
-                          const ImportControl& control) {
+absl::Status loadTextures(TriangleMesh& mesh, const std::string& path, const ImportControl& control,
+                          std::uint64_t memoryBytes) {
     if (mesh.materials.empty())
         return absl::OkStatus();
     if (!mesh.textures.empty()) {
-        auto loaded = readInOwnProcess([&] { return Loading(mesh, path).run(); },
-                                       ReadingLimits::forTextures(mesh.textures.size()), control);
+        const ReadingLimits limits = ReadingLimits::forTextures(mesh.textures.size());
+        if (memoryBytes != 0)
+            RETURN_IF_ERROR(checkMemory(mesh, path, memoryBytes, limits, control));
+        auto loaded = readInOwnProcess([&] { return Loading(mesh, path).run(); }, limits, control);
         RETURN_IF_ERROR(control.check());
         if (loaded.ok()) {
             mesh.materials = std::move(loaded->materials);

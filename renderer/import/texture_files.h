@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <absl/status/status.h>
@@ -26,9 +27,10 @@ inline constexpr double kMostImageSides = 16384;
 /// that are not opaque are not clear either, and has holes otherwise; it is opaque if all texels
 /// are clear, which notes say. Materials that are blended
 /// for nothing are opaque; the same materials are one; and where there is nothing but a plain one
-/// there is none. Notes say how many texture coordinates will be cut off. Errors: Cancelled.
-absl::Status loadTextures(TriangleMesh& mesh, const std::string& path,
-                          const ImportControl& control);
+/// there is none. Notes say how many texture coordinates will be cut off. Errors: Cancelled;
+/// ResourceExhausted (reading them takes more than `memoryBytes`, where that is not 0).
+absl::Status loadTextures(TriangleMesh& mesh, const std::string& path, const ImportControl& control,
+                          std::uint64_t memoryBytes = 0);
 
 /// The file that `name` in a source at `path` means; empty where there is none.
 std::string findTexture(const std::string& name, const std::string& path);

@@ -31,9 +31,6 @@ constexpr double kTooFar = 1.0 / 32;
 /// Points are drawn where they are at most half a pixel apart, triangles up to tau: a sample is the
 /// better if its error is this part of the triangles'.
 constexpr double kWorthPoints = 0.5;
-/// Nodes of more triangles have no points, but those below them: sampling takes some hundred bytes
-/// a triangle.
-constexpr std::size_t kMostSampled = std::size_t{1} << 18;
 
 /// Seams give a point several vertices, so a surface may have more of them than triangles.
 bool hasMoreVerticesThan(std::size_t most, const std::vector<Triangle>& triangles) {
@@ -53,13 +50,13 @@ void appendAll(std::vector<T>& to, const std::vector<T>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
-/// All triangles of both.
-void append(const PackedMesh& mesh, Patch& to, Patch from) {
+/// All triangles of both; of more than `mostSampled` without normals.
+void append(const PackedMesh& mesh, std::size_t mostSampled, Patch& to, Patch from) {
     if (to.tints.empty() != from.tints.empty()) {
         to.tints = tintsOf(mesh, to);
         from.tints = tintsOf(mesh, from);
     }
-    if (to.triangles.size() + from.triangles.size() > kMostSampled) {
+    if (to.triangles.size() + from.triangles.size() > mostSampled) {
         to.normals = {};  // memory that nothing comes of
         from.normals = {};
     } else if (to.normals.empty() != from.normals.empty()) {
@@ -153,7 +150,7 @@ LodPart Builder::visit(std::size_t index, std::size_t depth) {
         [&] { right = visit(static_cast<std::size_t>(node.right), depth + 1); });
     if (stop_.stop_requested())
         return {};
-    append(mesh_, left.patch, std::move(right.patch));
+    append(mesh_, options_.mostSampled, left.patch, std::move(right.patch));
     left.height = std::max(left.height, right.height);
     left.errorSteps = std::max(left.errorSteps, right.errorSteps);
     left.reachSteps = std::max(left.reachSteps, right.reachSteps);
@@ -221,7 +218,7 @@ void Builder::standFor(LodPart& part, std::size_t index, std::size_t depth) {
     const std::size_t before = part.patch.triangles.size();
     const double diagonal = glm::length(glm::dvec3(node.boxMax) - glm::dvec3(node.boxMin));
     const bool mayBeBetter = !fewer || fewer->patch.error() > kSmallPiece * diagonal;
-    if (before >= options_.sampledTriangles && before <= kMostSampled && mayBeBetter)
+    if (before >= options_.sampledTriangles && before <= options_.mostSampled && mayBeBetter)
         lod_.points[index] = samplePoints(
             mesh_, part.patch, colours_, options_.nodePoints,
             fewer ? kWorthPoints * fewer->patch.error() : std::numeric_limits<double>::infinity());

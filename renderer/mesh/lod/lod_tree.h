@@ -30,6 +30,9 @@ struct LodOptions {
     /// Where triangles cannot stand for a node, or not well, points do, if it has as many triangles
     /// as this.
     std::size_t sampledTriangles = 8192;
+    /// Nodes of more have no points, but those below them: sampling takes some hundred bytes a
+    /// triangle.
+    std::size_t mostSampled = std::size_t{1} << 18;
     std::size_t nodePoints = 4096;                            ///< how many, at most
     std::uint32_t leafTriangles = KdOptions().leafTriangles;  ///< of the tree's leaves, at most
 
@@ -38,6 +41,8 @@ struct LodOptions {
         return std::max<std::size_t>(4 * std::size_t{nodeTriangles},
                                      2 * std::size_t{leafTriangles});
     }
+    /// Of more triangles nothing comes, neither fewer nor points.
+    std::size_t mostUseful() const { return std::max(mostUnsimplified(), mostSampled); }
 };
 
 /// A node's surface on its way up.

@@ -92,5 +92,31 @@ TEST(MeshImport, KnowsThatTexturedTrianglesTakeMoreMemory) {
               std::uint64_t{64} << 20);
 }
 
+/// One colour, in runs of 128 texels: two megabytes.
+std::string largestTga() {
+    std::string file("\0\0\12\0\0\0\0\0\0\0\0\0\0\x20\0\x20\x18\x20", 18);
+    constexpr int kRuns = 8192 * 8192 / 128;
+    for (int i = 0; i < kRuns; ++i) file += "\xFF\x10\x20\x30";
+    return file;
+}
+
+TEST(MeshImport, RefusesTexturesThatTakeMoreMemoryThanItMay) {
+    const test::TemporaryFolder folder;
+    std::string materials, mesh = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 1\n";
+    for (const std::string name : {"a", "b", "c"}) {
+        test::writeFile(folder.file(name + ".tga"), largestTga());
+        materials += "newmtl " + name + "\nmap_Kd " + name + ".tga\n";
+        mesh += "usemtl " + name + "\nf 1/1 2/2 3/1\n";
+    }
+    test::writeFile(folder.file("m.mtl"), materials);
+    test::writeFile(folder.file("m.obj"), mesh);
+    const auto report =
+        importMesh({folder.file("m.obj")}, folder.file("m.eym"), {.memoryBytes = kLeastMeshMemory});
+    EXPECT_EQ(report.status().code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_THAT(std::string(report.status().message()),
+                testing::AllOf(HasSubstr("m.obj"), HasSubstr("its 3 textures takes about 641 MiB"),
+                               HasSubstr("may use 256"), HasSubstr("allow more")));
+}
+
 }  // namespace
 }  // namespace eyrie::import

@@ -80,12 +80,12 @@ void expectSameButForBacks(const std::string& parts, const std::string& whole) {
 }
 
 void expectSameByParts(const TriangleMesh& source, const MeshImportOptions& options = {},
-                       const TwoFiles& expectSame = expectSameBytes) {
+                       const TwoFiles& expectSame = expectSameBytes, std::uint64_t atOnce = 16384) {
     const test::TemporaryFolder folder;
     const std::string path = folder.file("m.ply");
     ASSERT_TRUE(writePly(source, path).ok());
     const auto whole = importMesh({path}, folder.file("whole.eym"), options);
-    const auto parted = importByParts(path, folder.file("parts.eym"), 16384, options);
+    const auto parted = importByParts(path, folder.file("parts.eym"), atOnce, options);
     ASSERT_TRUE(whole.ok() && parted.ok()) << whole.status() << parted.status();
     EXPECT_EQ(parted->counts, whole->counts);
     EXPECT_EQ(parted->vertices, whole->vertices);
@@ -108,15 +108,28 @@ TEST(MeshImport, ByPartsGivesTheSameOfAnOpenMeshButForItsBacks) {
 TEST(MeshImport, ByPartsIsNotCoarsenedByFacesWithACornerTwiceEither) {
     TriangleMesh ball = synthesizeMesh(60000, 3);
     const auto far = static_cast<std::uint32_t>(ball.positions.size());
-    ball.positions.emplace_back(1e12, 0, 0);
-    ball.triangles.insert(ball.triangles.begin() + 100, {{far, far, far}, {0, far, far}});
+    ball.positions.insert(ball.positions.end(), 2, {1e12, 0, 0});
+    ball.triangles.insert(ball.triangles.begin() + 100,
+                          {{far, far, far}, {0, far, far}, {far, far + 1, 0}});
     expectSameByParts(ball);
     const test::TemporaryFolder folder;
-    ball.triangles.assign(5, {far, far, 0});
+    ball.triangles.assign(5, {far, far + 1, 0});
     ASSERT_TRUE(writePly(ball, folder.file("m.ply")).ok());
     EXPECT_THAT(
         importByParts(folder.file("m.ply"), folder.file("m.eym"), 16384, {}).status().message(),
-        testing::HasSubstr("found 5 triangles, none with any area"));
+        testing::AllOf(HasSubstr("m.ply"), HasSubstr("found 5 triangles, none with any area")));
+}
+
+/// What is left is exact in single precision; the faces that are there twice are not.
+TEST(MeshImport, ByPartsKeepsNoMorePrecisionForFacesThatAreThereTwice) {
+    TriangleMesh ball = synthesizeMesh(60000, 3);
+    for (fabric::Vec3& at : ball.positions) at = glm::round(at * 65536.0) / 65536.0;
+    const TriangleMesh once = ball;
+    const auto copies = static_cast<std::uint32_t>(once.positions.size());
+    for (const fabric::Vec3& at : once.positions) ball.positions.push_back(at * (1 - 1e-13));
+    for (const auto& [a, b, c] : once.triangles)
+        ball.triangles.push_back({copies + a, copies + b, copies + c});
+    expectSameByParts(ball, {.pack = {.keepsExact = true}});
 }
 
 /// A ball whose colours vanish from level to level.
@@ -211,6 +224,13 @@ TriangleMesh twoRings(std::uint32_t around) {
 /// Parts come to half their triangles, which two of them together are few enough to be drawn as.
 TEST(MeshImport, ByPartsGivesTheSameBytesWhereTwoPartsAreNoMoreThanANode) {
     expectSameByParts(twoRings(2731));
+}
+
+/// Of parts that are too large to be simplified, two together are still small enough for points.
+TEST(MeshImport, ByPartsGivesTheSameBytesWherePointsStandForSeveralParts) {
+    expectSameByParts(soup(4, 70000),
+                      {.pack = {.normals = NormalSource::Crease, .creaseDegrees = 5}},
+                      expectSameBytes, 100000);
 }
 
 TEST(MeshImport, CountsTheNodesThatPointsStandFor) {
