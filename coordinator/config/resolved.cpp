@@ -395,12 +395,19 @@ private:
     void takeOutputs(const ResolvedCompound& compound, ResolvedFrame& frame) {
         if (!compound.destination)
             return warnOfOutside(frame, "the inputframe has no effect");
-        for (const Output& output : outputs_[frame.name])
-            frame.isMatched = output.frame->isMatched = true;
+        const std::vector<Output>& named = outputs_[frame.name];
+        for (const Output& output : named)
+            if (mayMeet(*output.compound, compound))
+                frame.isMatched = output.frame->isMatched = true;
         if (!frame.isMatched)
             findings_.warning(
                 frame.frame->place,
-                fmt::format("no outputframe of this compound tree is named \"{}\"", frame.name));
+                named.empty()
+                    ? fmt::format("no outputframe of this compound tree is named \"{}\"",
+                                  frame.name)
+                    : fmt::format("the outputframe \"{}\" is never drawn for an eye and in a frame "
+                                  "in which it is taken here",
+                                  frame.name));
     }
 
     void warnOfOutside(const ResolvedFrame& frame, std::string_view what) {
@@ -430,6 +437,11 @@ private:
     static bool meet(const ResolvedCompound& a, const ResolvedCompound& b) {
         const std::int64_t common = std::gcd(a.period, b.period);
         return a.phase % common == b.phase % common && !both(a.eyes, b.eyes).isEmpty();
+    }
+
+    /// The same; of compounds that the view has no eyes for in its mode, in another mode.
+    static bool mayMeet(const ResolvedCompound& a, const ResolvedCompound& b) {
+        return meet(a, b) || a.eyes.isEmpty() || b.eyes.isEmpty();
     }
 
     /// The plain picture of a view that no compound makes.

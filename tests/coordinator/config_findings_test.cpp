@@ -378,6 +378,30 @@ TEST(EqcWarnings, NameFramesThatTheTasksLeaveOut) {
         "f:2:45: warning: the compound's task has no READBACK: the outputframe stays empty\n");
 }
 
+TEST(EqcWarnings, NameFramesThatAreTakenForOtherEyesOrPhasesThanTheyAreDrawnFor) {
+    const auto found = [](const std::string& mode, const std::string& drawn,
+                          const std::string& taken) {
+        std::string text = withCompounds(
+            "\ncompound { channel ( segment 0 view 0 ) compound {}\n compound { "
+            "channel \"b\" " +
+            drawn + " outputframe { name \"f\" } }\n compound { task [ ASSEMBLE ] " + taken +
+            "\ninputframe { name \"f\" } } }");
+        return describe(Read(text.replace(text.find("view {"), 6, "view { mode " + mode)).findings,
+                        "f");
+    };
+    for (const auto& [drawn, taken] : std::vector<std::pair<std::string, std::string>>{
+             {"eye [ LEFT ]", "eye [ RIGHT ]"}, {"period 2 phase 1", "period 2 phase 0"}}) {
+        const std::string text = found("STEREO", drawn, taken);
+        EXPECT_THAT(text, HasSubstr("f:5:1: warning: the outputframe \"f\" is never drawn for an "
+                                    "eye and in a frame in which it is taken here\n"));
+        EXPECT_THAT(text, HasSubstr("warning: nobody takes the outputframe \"f\"\n"));
+    }
+    EXPECT_EQ(found("STEREO", "eye [ LEFT ]", "eye [ LEFT RIGHT ]"), "");
+    EXPECT_EQ(found("STEREO", "period 4 phase 3", "period 2 phase 1"), "");
+    EXPECT_EQ(found("MONO", "eye [ LEFT ]", "eye [ RIGHT ]"), "");
+    EXPECT_EQ(found("MONO", "eye [ LEFT ]", ""), "") << "the view may be switched to STEREO";
+}
+
 TEST(EqcWarnings, SayThatChildrenDrawWhereTheirCompoundIsToldTo) {
     const Read read(
         withCompounds("compound { channel ( segment 0 view 0 ) task [ CLEAR DRAW ]\ncompound { "
