@@ -473,6 +473,26 @@ TEST(EqcWarnings, SayWhereCompoundsMakeNothingOfWhatTheViewShows) {
     EXPECT_EQ(found("compound { eye [ LEFT ] } compound { eye [ CYCLOP ] }"), "");
 }
 
+TEST(EqcWarnings, SayWhichCompoundsHaveNoneOfTheEyesAboveThem) {
+    const auto found = [](const std::string& mode, const std::string& compounds) {
+        std::string text =
+            withCompounds("\ncompound { channel ( segment 0 view 0 ) " + compounds + " }");
+        return describe(Read(text.replace(text.find("view {"), 6, "view { mode " + mode)).findings,
+                        "f");
+    };
+    const std::string none =
+        "f:3:1: warning: none of the compound's eyes are among those of the compound above it: it "
+        "does nothing\n";
+    const std::string left =
+        "eye [ CYCLOP LEFT ] compound {} \ncompound { eye [ RIGHT ] compound {} }";
+    EXPECT_EQ(found("STEREO", left), none);
+    EXPECT_EQ(found("MONO", left), none);
+    EXPECT_EQ(
+        found("STEREO", "compound {}\ncompound { eye [ CYCLOP ] compound { eye [ CYCLOP ] } }"),
+        "");
+    EXPECT_EQ(found("MONO", "compound {}\ncompound { eye [ LEFT ] }"), "");
+}
+
 TEST(EqcWarnings, SayWherePartsOfTheDataComeWithoutDepth) {
     const auto found = [](const std::string& above, const std::string& part,
                           const std::string& frame) {
