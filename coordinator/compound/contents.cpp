@@ -45,8 +45,20 @@ bool meet(const Block& block, const Content& content) {
            block.range.begin < content.range.end && content.range.begin < block.range.end;
 }
 
-/// What of `block` is outside of `content`, in blocks: data before and after, then beside, below
-/// and above it.
+/// What of `whole` is outside of `inner`, which lies in it: beside, below and above it.
+std::vector<PixelViewport> outside(const PixelViewport& whole, const PixelViewport& inner) {
+    const int right = inner.x + inner.width;
+    const int top = inner.y + inner.height;
+    std::vector<PixelViewport> parts = {
+        {whole.x, whole.y, inner.x - whole.x, whole.height},
+        {right, whole.y, whole.x + whole.width - right, whole.height},
+        {inner.x, whole.y, inner.width, inner.y - whole.y},
+        {inner.x, top, inner.width, whole.y + whole.height - top}};
+    std::erase_if(parts, [](const PixelViewport& part) { return part.isEmpty(); });
+    return parts;
+}
+
+/// What of `block` is outside of `content`, in blocks: data before and after, then around it.
 std::vector<Block> outside(const Block& block, const Content& content) {
     std::vector<Block> parts;
     const auto add = [&](const PixelViewport& area, const Range& range) {
@@ -57,14 +69,8 @@ std::vector<Block> outside(const Block& block, const Content& content) {
     add(block.area, {content.range.end, block.range.end});
     const Range both{std::max(block.range.begin, content.range.begin),
                      std::min(block.range.end, content.range.end)};
-    const PixelViewport& whole = block.area;
-    const PixelViewport inner = intersection(whole, content.area);
-    const int right = inner.x + inner.width;
-    const int top = inner.y + inner.height;
-    add({whole.x, whole.y, inner.x - whole.x, whole.height}, both);
-    add({right, whole.y, whole.x + whole.width - right, whole.height}, both);
-    add({inner.x, whole.y, inner.width, inner.y - whole.y}, both);
-    add({inner.x, top, inner.width, whole.y + whole.height - top}, both);
+    for (const PixelViewport& part : outside(block.area, intersection(block.area, content.area)))
+        add(part, both);
     return parts;
 }
 
@@ -200,7 +206,17 @@ void Contents::add(const Content& content) {
 }
 
 void Contents::clear(const PixelViewport& area) {
-    std::erase_if(all_, [&](const Content& each) { return area.contains(each.area); });
+    std::vector<Content> left;
+    for (const Content& each : all_) {
+        const PixelViewport cleared = intersection(each.area, area);
+        if (cleared.isEmpty() || (cleared != each.area && left.size() > kLong)) {
+            left.push_back(each);
+            continue;
+        }
+        for (const PixelViewport& part : outside(each.area, cleared))
+            left.emplace_back(each).area = part;
+    }
+    all_ = std::move(left);
 }
 
 Contents Contents::within(const PixelViewport& area) const {

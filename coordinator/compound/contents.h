@@ -46,7 +46,8 @@ public:
     /// When all shares of a rectangle's columns and rows are there, they count as the rectangle.
     void add(const Content& content);
 
-    /// Forgets what lies in `area` with all of it.
+    /// Forgets what lies in `area`; where finding out takes long, only what lies there with all of
+    /// it.
     void clear(const fabric::PixelViewport& area);
 
     Contents within(const fabric::PixelViewport& area) const;

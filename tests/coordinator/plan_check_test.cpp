@@ -146,6 +146,23 @@ TEST(PlanCheck, WarnsOfDataThatNobodyDraws) {
               "range [ 0.5 1 ]: it is background\n");
 }
 
+TEST(PlanCheck, WarnsOfDataThatAStripWithoutDepthCovers) {
+    const auto strip = [](std::string_view range) {
+        return foundIn(withCompounds(fmt::format(
+            "compound {{ channel ( segment 0 view \"v\" ) buffer [ COLOR DEPTH ]\n"
+            "compound {{ range [ 0 .5 ] outputframe {{ name \"own\" }} }}\n"
+            "compound {{ channel \"b\" compound {{ range [ .5 1 ] outputframe {{ name "
+            "\"rest\" viewport [ .25 0 .75 1 ] }} }} {}\n"
+            "outputframe {{ name \"strip\" buffer [ COLOR ] viewport [ 0 0 .25 1 ] }} }}\n"
+            "inputframe {{ name \"rest\" }} inputframe {{ name \"strip\" }} }}",
+            range)));
+    };
+    EXPECT_EQ(strip("inputframe { name \"own\" }"), "");
+    EXPECT_EQ(strip(""),
+              "f:2:1: warning: nothing draws 12.5 % of what is shown, in viewport [ 0 0 0.25 1 ], "
+              "in range [ 0 0.5 ]: it is background\n");
+}
+
 TEST(PlanCheck, WarnsOfPixelsThatNobodyDraws) {
     EXPECT_EQ(foundIn(halves("pixel [ 0 0 2 1 ]", "pixel [ 1 0 2 1 ]")), "");
     EXPECT_EQ(foundIn(halves("pixel [ 0 0 3 1 ]", "pixel [ 1 0 3 1 ]")),
