@@ -2,7 +2,7 @@
 #include "coordinator/compound/contents.h"
 
 #include <algorithm>
-#include <set>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -95,29 +95,48 @@ Block common(const Block& block, const Content& content) {
              std::min(block.range.end, content.range.end)}};
 }
 
-/// Whole numbers from `begin`, `count` of them, that are `first` more than a multiple of `every`.
-std::int64_t countOf(std::int64_t begin, std::int64_t count, int first, int every) {
-    const auto below = [&](std::int64_t end) { return (end - first + every - 1) / every; };
-    return below(begin + count) - below(begin);
+/// After how many of `count` columns or rows the same of `shares` come again; `count` where they
+/// do not.
+std::int64_t periodOf(std::span<const Content* const> shares, std::int32_t count,
+                      std::int32_t fabric::Regridding::*every) {
+    std::int64_t period = 1;
+    for (const Content* const each : shares)
+        period = std::min<std::int64_t>(count, std::lcm(period, (*each->everyNth).*every));
+    return period;
+}
+
+/// The first of the columns or rows from `begin` on that is `first` more than a multiple of
+/// `every`.
+std::int64_t firstFrom(std::int64_t begin, std::int64_t first, std::int64_t every) {
+    const std::int64_t before = (begin - first) % every;
+    return before <= 0 ? -before : every - before;
 }
 
 /// How much is missing of the pixels of `area`, where each of `shares` is all over it, if that can
 /// be told.
 double missingOf(const PixelViewport& area, std::span<const Content* const> shares) {
-    if (shares.empty())
-        return 1;
-    const fabric::Regridding& all = *shares.front()->everyNth;
-    std::set<std::pair<int, int>> found;
-    std::int64_t pixels = 0;
+    constexpr std::int64_t kMostCells = 1'000'000;
+    const std::int64_t columns = periodOf(shares, area.width, &fabric::Regridding::everyColumn);
+    const std::int64_t rows = periodOf(shares, area.height, &fabric::Regridding::everyRow);
+    if (columns * rows > kMostCells)
+        return 0;
+    std::vector<bool> isThere(static_cast<std::size_t>(columns * rows), false);
     for (const Content* const each : shares) {
-        if (!areSharesOf(*each, *shares.front()))
-            return 0;
-        const auto [column, row] = std::pair(each->everyNth->firstColumn, each->everyNth->firstRow);
-        if (found.emplace(column, row).second)
-            pixels += countOf(area.x - all.of.x, area.width, column, all.everyColumn) *
-                      countOf(area.y - all.of.y, area.height, row, all.everyRow);
+        const fabric::Regridding& share = *each->everyNth;
+        const std::int64_t column =
+            firstFrom(area.x, share.of.x + share.firstColumn, share.everyColumn);
+        for (std::int64_t row = firstFrom(area.y, share.of.y + share.firstRow, share.everyRow);
+             row < rows; row += share.everyRow)
+            for (std::int64_t x = column; x < columns; x += share.everyColumn)
+                isThere[static_cast<std::size_t>(row * columns + x)] = true;
     }
-    return 1 - static_cast<double>(pixels) / static_cast<double>(area.area());
+    std::int64_t missing = 0;
+    for (std::int64_t row = 0; row < rows; ++row)
+        for (std::int64_t column = 0; column < columns; ++column)
+            if (!isThere[static_cast<std::size_t>(row * columns + column)])
+                missing += ((area.width - column + columns - 1) / columns) *
+                           ((area.height - row + rows - 1) / rows);
+    return static_cast<double>(missing) / static_cast<double>(area.area());
 }
 
 }  // namespace

@@ -171,6 +171,22 @@ TEST(PlanCheck, WarnsOfPixelsThatNobodyDraws) {
               "f:2:1: warning: nothing draws 75 % of what is shown: it is background\n");
 }
 
+TEST(PlanCheck, WarnsOfPixelsBetweenSharesThatAreCountedDifferently) {
+    EXPECT_EQ(foundIn(halves("pixel [ 0 0 2 1 ]", "pixel [ 1 0 3 1 ]")),
+              "f:2:1: warning: nothing draws 33.3 % of what is shown: it is background\n");
+    EXPECT_EQ(foundIn(halves("pixel [ 0 0 2 1 ]", "pixel [ 0 1 1 2 ]")),
+              "f:2:1: warning: nothing draws 25 % of what is shown: it is background\n");
+    EXPECT_EQ(
+        foundIn(halves("pixel [ 0 0 2 1 ]", "viewport [ 0 0 .5 1 ] pixel [ 1 0 2 1 ]")),
+        "f:2:1: warning: nothing draws 25 % of what is shown, in viewport [ 0.5 0 0.5 1 ]: it "
+        "is background\n");
+    EXPECT_EQ(foundIn(withCompounds(
+                  "compound { channel ( segment 0 view \"v\" )\n"
+                  "compound { pixel [ 0 0 2 1 ] } compound { pixel [ 1 0 4 1 ] } compound { pixel "
+                  "[ 3 0 4 1 ] } }")),
+              "");
+}
+
 RC_GTEST_PROP(PlanCheck, FindsNoGapWhereAllIsDrawn, ()) {
     RandomCompounds random(*rc::gen::arbitrary<std::uint32_t>());
     const config::Configuration whole = random.maybe()
