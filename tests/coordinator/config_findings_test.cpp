@@ -101,6 +101,18 @@ TEST(EqcErrors, AreImpossibleShares) {
             << compound;
 }
 
+TEST(EqcErrors, AreViewportsOfPixelsThatHaveNone) {
+    const auto error = [](const std::string& window, const std::string& channel) {
+        return firstError("config { appNode { pipe { window {\nviewport [ " + window +
+                          " ] channel {\nviewport [ " + channel + " ] } } } } }");
+    };
+    const std::string none =
+        "; expected 1 x 1 pixels or more: a width or a height above 1 makes all four pixels";
+    EXPECT_EQ(error("0 0 1 1", ".5 .5 .5 1.5"), "3:1 'viewport' is [ .5 .5 .5 1.5 ]" + none);
+    EXPECT_EQ(error("0 0 1.001 .5", "0 0 1 1"), "2:1 'viewport' is [ 0 0 1.001 .5 ]" + none);
+    EXPECT_EQ(error("0 0 1 1.5", ".5 .5 .5 .5"), "none");
+}
+
 TEST(EqcErrors, AreFocusesThatAreNotAheadOrTooFar) {
     for (const char* distance : {"0", "-2", "1000001"})
         EXPECT_THAT(
