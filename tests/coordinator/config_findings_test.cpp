@@ -314,6 +314,16 @@ TEST(EqcWarnings, KnowSettingsAsEqualizerSpellsThem) {
               std::string::npos);
 }
 
+/// As older versions wrote it.
+TEST(EqcWarnings, KnowAViewsDisplayClusterBesideItsAttributes) {
+    const Read read("config { layout { view { DisplayCluster \"x\" } } }");
+    EXPECT_THAT(describe(read.findings, "f"),
+                HasSubstr("f:1:26: on screen only: 'DisplayCluster' has no effect here"));
+    const Attributes& settings = read.configuration.layouts[0].views[0].attributes;
+    ASSERT_EQ(settings.size(), 1U);
+    EXPECT_EQ(settings[0].name, "DisplayCluster");
+}
+
 TEST(EqcWarnings, OfWhatHasNoEffectComeLastAndOnceForAllPlaces) {
     const Read read(
         "config {\n"
