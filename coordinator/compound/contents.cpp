@@ -2,7 +2,7 @@
 #include "coordinator/compound/contents.h"
 
 #include <algorithm>
-#include <set>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -45,8 +45,20 @@ bool meet(const Block& block, const Content& content) {
            block.range.begin < content.range.end && content.range.begin < block.range.end;
 }
 
-/// What of `block` is outside of `content`, in blocks: data before and after, then beside, below
-/// and above it.
+/// What of `whole` is outside of `inner`, which lies in it: beside, below and above it.
+std::vector<PixelViewport> outside(const PixelViewport& whole, const PixelViewport& inner) {
+    const int right = inner.x + inner.width;
+    const int top = inner.y + inner.height;
+    std::vector<PixelViewport> parts = {
+        {whole.x, whole.y, inner.x - whole.x, whole.height},
+        {right, whole.y, whole.x + whole.width - right, whole.height},
+        {inner.x, whole.y, inner.width, inner.y - whole.y},
+        {inner.x, top, inner.width, whole.y + whole.height - top}};
+    std::erase_if(parts, [](const PixelViewport& part) { return part.isEmpty(); });
+    return parts;
+}
+
+/// What of `block` is outside of `content`, in blocks: data before and after, then around it.
 std::vector<Block> outside(const Block& block, const Content& content) {
     std::vector<Block> parts;
     const auto add = [&](const PixelViewport& area, const Range& range) {
@@ -57,14 +69,8 @@ std::vector<Block> outside(const Block& block, const Content& content) {
     add(block.area, {content.range.end, block.range.end});
     const Range both{std::max(block.range.begin, content.range.begin),
                      std::min(block.range.end, content.range.end)};
-    const PixelViewport& whole = block.area;
-    const PixelViewport inner = intersection(whole, content.area);
-    const int right = inner.x + inner.width;
-    const int top = inner.y + inner.height;
-    add({whole.x, whole.y, inner.x - whole.x, whole.height}, both);
-    add({right, whole.y, whole.x + whole.width - right, whole.height}, both);
-    add({inner.x, whole.y, inner.width, inner.y - whole.y}, both);
-    add({inner.x, top, inner.width, whole.y + whole.height - top}, both);
+    for (const PixelViewport& part : outside(block.area, intersection(block.area, content.area)))
+        add(part, both);
     return parts;
 }
 
@@ -89,29 +95,48 @@ Block common(const Block& block, const Content& content) {
              std::min(block.range.end, content.range.end)}};
 }
 
-/// Whole numbers from `begin`, `count` of them, that are `first` more than a multiple of `every`.
-std::int64_t countOf(std::int64_t begin, std::int64_t count, int first, int every) {
-    const auto below = [&](std::int64_t end) { return (end - first + every - 1) / every; };
-    return below(begin + count) - below(begin);
+/// After how many of `count` columns or rows the same of `shares` come again; `count` where they
+/// do not.
+std::int64_t periodOf(std::span<const Content* const> shares, std::int32_t count,
+                      std::int32_t fabric::Regridding::*every) {
+    std::int64_t period = 1;
+    for (const Content* const each : shares)
+        period = std::min<std::int64_t>(count, std::lcm(period, (*each->everyNth).*every));
+    return period;
+}
+
+/// The first of the columns or rows from `begin` on that is `first` more than a multiple of
+/// `every`.
+std::int64_t firstFrom(std::int64_t begin, std::int64_t first, std::int64_t every) {
+    const std::int64_t before = (begin - first) % every;
+    return before <= 0 ? -before : every - before;
 }
 
 /// How much is missing of the pixels of `area`, where each of `shares` is all over it, if that can
 /// be told.
 double missingOf(const PixelViewport& area, std::span<const Content* const> shares) {
-    if (shares.empty())
-        return 1;
-    const fabric::Regridding& all = *shares.front()->everyNth;
-    std::set<std::pair<int, int>> found;
-    std::int64_t pixels = 0;
+    constexpr std::int64_t kMostCells = 1'000'000;
+    const std::int64_t columns = periodOf(shares, area.width, &fabric::Regridding::everyColumn);
+    const std::int64_t rows = periodOf(shares, area.height, &fabric::Regridding::everyRow);
+    if (columns * rows > kMostCells)
+        return 0;
+    std::vector<bool> isThere(static_cast<std::size_t>(columns * rows), false);
     for (const Content* const each : shares) {
-        if (!areSharesOf(*each, *shares.front()))
-            return 0;
-        const auto [column, row] = std::pair(each->everyNth->firstColumn, each->everyNth->firstRow);
-        if (found.emplace(column, row).second)
-            pixels += countOf(area.x - all.of.x, area.width, column, all.everyColumn) *
-                      countOf(area.y - all.of.y, area.height, row, all.everyRow);
+        const fabric::Regridding& share = *each->everyNth;
+        const std::int64_t column =
+            firstFrom(area.x, share.of.x + share.firstColumn, share.everyColumn);
+        for (std::int64_t row = firstFrom(area.y, share.of.y + share.firstRow, share.everyRow);
+             row < rows; row += share.everyRow)
+            for (std::int64_t x = column; x < columns; x += share.everyColumn)
+                isThere[static_cast<std::size_t>(row * columns + x)] = true;
     }
-    return 1 - static_cast<double>(pixels) / static_cast<double>(area.area());
+    std::int64_t missing = 0;
+    for (std::int64_t row = 0; row < rows; ++row)
+        for (std::int64_t column = 0; column < columns; ++column)
+            if (!isThere[static_cast<std::size_t>(row * columns + column)])
+                missing += ((area.width - column + columns - 1) / columns) *
+                           ((area.height - row + rows - 1) / rows);
+    return static_cast<double>(missing) / static_cast<double>(area.area());
 }
 
 }  // namespace
@@ -200,7 +225,17 @@ void Contents::add(const Content& content) {
 }
 
 void Contents::clear(const PixelViewport& area) {
-    std::erase_if(all_, [&](const Content& each) { return area.contains(each.area); });
+    std::vector<Content> left;
+    for (const Content& each : all_) {
+        const PixelViewport cleared = intersection(each.area, area);
+        if (cleared.isEmpty() || (cleared != each.area && left.size() > kLong)) {
+            left.push_back(each);
+            continue;
+        }
+        for (const PixelViewport& part : outside(each.area, cleared))
+            left.emplace_back(each).area = part;
+    }
+    all_ = std::move(left);
 }
 
 Contents Contents::within(const PixelViewport& area) const {

@@ -39,14 +39,15 @@ public:
     bool cover(const fabric::PixelViewport& area, const fabric::Range& range) const;
 
     /// Parts of `area` where nothing is of some of the data, or on some of the pixels: apart from
-    /// each other, and only what is surely missing. What is not full, and pixels of shares that are
-    /// counted differently, count as there. Nothing where finding out takes long.
+    /// each other, and only what is surely missing. What is not full counts as there. Nothing where
+    /// finding out takes long.
     std::vector<Gap> gaps(const fabric::PixelViewport& area) const;
 
     /// When all shares of a rectangle's columns and rows are there, they count as the rectangle.
     void add(const Content& content);
 
-    /// Forgets what lies in `area` with all of it.
+    /// Forgets what lies in `area`; where finding out takes long, only what lies there with all of
+    /// it.
     void clear(const fabric::PixelViewport& area);
 
     Contents within(const fabric::PixelViewport& area) const;

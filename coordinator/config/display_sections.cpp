@@ -39,6 +39,10 @@ View readView(const Statement& block, const Configuration& before, ValueReader& 
           [&](const auto& each) {
               view.observer = reader.reference(each, before.observers, "observer");
           }},
+         {"DisplayCluster",  // as older versions wrote it
+          [&](const auto& each) {
+              readAttribute(each, AttributeScope::View, reader, view.attributes);
+          }},
          {"attributes", [&](const auto& each) {
               readAttributes(each, AttributeScope::View, reader, view.attributes);
           }}});

@@ -111,6 +111,7 @@ private:
         resolved_.compounds.push_back(own);
         for (const Compound& child : compound.children) visit(child, &passedOn);
         path_.pop_back();
+        eyesSaid_.pop_back();
     }
 
     static ResolvedCompound atRoot() {
@@ -175,6 +176,7 @@ private:
         own.buffers = compound.buffers.value_or(own.buffers);
         if (compound.eyes)
             own.eyes = isPartOfPicture ? both(own.eyes, *compound.eyes) : *compound.eyes;
+        sayEyes(compound, isPartOfPicture);
         if (own.destination && !isPartOfPicture)
             own.eyes = both(own.eyes, resolved_.destinations[*own.destination].eyes);
         takeWall(compound, own, isPartOfPicture);
@@ -184,6 +186,19 @@ private:
             findings_.error(compound.place, fmt::format("phase {} of a period of {} frames: it "
                                                         "must be less",
                                                         own.phase, own.period));
+    }
+
+    /// Of what compounds say alone: which of it there is depends on the view's mode.
+    void sayEyes(const Compound& compound, bool isPartOfPicture) {
+        Eyes eyes = eyesSaid_.empty() ? atRoot().eyes : eyesSaid_.back();
+        const bool hadEyes = !eyes.isEmpty();
+        if (compound.eyes)
+            eyes = isPartOfPicture ? both(eyes, *compound.eyes) : *compound.eyes;
+        if (isPartOfPicture && hadEyes && eyes.isEmpty())
+            findings_.warning(compound.place,
+                              "none of the compound's eyes are among those of the compound above "
+                              "it: it does nothing");
+        eyesSaid_.push_back(eyes);
     }
 
     /// Within a destination's picture a compound may see another wall; the destination itself shows
@@ -404,12 +419,19 @@ private:
     void takeOutputs(const ResolvedCompound& compound, ResolvedFrame& frame) {
         if (!compound.destination)
             return warnOfOutside(frame, "the inputframe has no effect");
-        for (const Output& output : outputs_[frame.name])
-            frame.isMatched = output.frame->isMatched = true;
+        const std::vector<Output>& named = outputs_[frame.name];
+        for (const Output& output : named)
+            if (mayMeet(*output.compound, compound))
+                frame.isMatched = output.frame->isMatched = true;
         if (!frame.isMatched)
             findings_.warning(
                 frame.frame->place,
-                fmt::format("no outputframe of this compound tree is named \"{}\"", frame.name));
+                named.empty()
+                    ? fmt::format("no outputframe of this compound tree is named \"{}\"",
+                                  frame.name)
+                    : fmt::format("the outputframe \"{}\" is never drawn for an eye and in a frame "
+                                  "in which it is taken here",
+                                  frame.name));
     }
 
     void warnOfOutside(const ResolvedFrame& frame, std::string_view what) {
@@ -441,6 +463,11 @@ private:
         return a.phase % common == b.phase % common && !both(a.eyes, b.eyes).isEmpty();
     }
 
+    /// The same; of compounds that the view has no eyes for in its mode, in another mode.
+    static bool mayMeet(const ResolvedCompound& a, const ResolvedCompound& b) {
+        return meet(a, b) || a.eyes.isEmpty() || b.eyes.isEmpty();
+    }
+
     /// The plain picture of a view that no compound makes.
     void addImplicit(std::size_t destination) {
         const Destination& shown = resolved_.destinations[destination];
@@ -466,6 +493,7 @@ private:
     std::unordered_map<std::string, std::vector<Output>> outputs_;  ///< of the tree, by name
     std::vector<Output> inOrder_;                                   ///< the same
     Path path_;
+    std::vector<Eyes> eyesSaid_;  ///< by the compounds of the path, each within those above it
 };
 
 }  // namespace

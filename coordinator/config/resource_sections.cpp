@@ -9,7 +9,13 @@ constexpr std::int64_t kMostPort = 65535;
 constexpr std::int64_t kMost = 1'000'000'000;
 
 void viewport(const Statement& statement, ValueReader& reader, std::optional<Viewport>& target) {
-    reader.optional(target, [&](Viewport& value) { reader.viewport(statement, value); });
+    reader.optional(target, [&](Viewport& value) {
+        reader.viewport(statement, value);
+        if (value.isPixels() && (value.width < 1 || value.height < 1))
+            reader.expected(statement,
+                            "1 x 1 pixels or more: a width or a height above 1 makes all four "
+                            "pixels");
+    });
 }
 
 void number(const Statement& statement, ValueReader& reader, std::optional<std::int64_t>& target) {

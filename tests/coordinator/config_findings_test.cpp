@@ -101,6 +101,18 @@ TEST(EqcErrors, AreImpossibleShares) {
             << compound;
 }
 
+TEST(EqcErrors, AreViewportsOfPixelsThatHaveNone) {
+    const auto error = [](const std::string& window, const std::string& channel) {
+        return firstError("config { appNode { pipe { window {\nviewport [ " + window +
+                          " ] channel {\nviewport [ " + channel + " ] } } } } }");
+    };
+    const std::string none =
+        "; expected 1 x 1 pixels or more: a width or a height above 1 makes all four pixels";
+    EXPECT_EQ(error("0 0 1 1", ".5 .5 .5 1.5"), "3:1 'viewport' is [ .5 .5 .5 1.5 ]" + none);
+    EXPECT_EQ(error("0 0 1.001 .5", "0 0 1 1"), "2:1 'viewport' is [ 0 0 1.001 .5 ]" + none);
+    EXPECT_EQ(error("0 0 1 1.5", ".5 .5 .5 .5"), "none");
+}
+
 TEST(EqcErrors, AreFocusesThatAreNotAheadOrTooFar) {
     for (const char* distance : {"0", "-2", "1000001"})
         EXPECT_THAT(
@@ -319,6 +331,16 @@ TEST(EqcWarnings, KnowSettingsAsEqualizerSpellsThem) {
               std::string::npos);
 }
 
+/// As older versions wrote it.
+TEST(EqcWarnings, KnowAViewsDisplayClusterBesideItsAttributes) {
+    const Read read("config { layout { view { DisplayCluster \"x\" } } }");
+    EXPECT_THAT(describe(read.findings, "f"),
+                HasSubstr("f:1:26: on screen only: 'DisplayCluster' has no effect here"));
+    const Attributes& settings = read.configuration.layouts[0].views[0].attributes;
+    ASSERT_EQ(settings.size(), 1U);
+    EXPECT_EQ(settings[0].name, "DisplayCluster");
+}
+
 TEST(EqcWarnings, OfWhatHasNoEffectComeLastAndOnceForAllPlaces) {
     const Read read(
         "config {\n"
@@ -393,6 +415,30 @@ TEST(EqcWarnings, NameFramesThatTheTasksLeaveOut) {
     EXPECT_EQ(
         found("", "task [ CLEAR DRAW ]"),
         "f:2:45: warning: the compound's task has no READBACK: the outputframe stays empty\n");
+}
+
+TEST(EqcWarnings, NameFramesThatAreTakenForOtherEyesOrPhasesThanTheyAreDrawnFor) {
+    const auto found = [](const std::string& mode, const std::string& drawn,
+                          const std::string& taken) {
+        std::string text = withCompounds(
+            "\ncompound { channel ( segment 0 view 0 ) compound {}\n compound { "
+            "channel \"b\" " +
+            drawn + " outputframe { name \"f\" } }\n compound { task [ ASSEMBLE ] " + taken +
+            "\ninputframe { name \"f\" } } }");
+        return describe(Read(text.replace(text.find("view {"), 6, "view { mode " + mode)).findings,
+                        "f");
+    };
+    for (const auto& [drawn, taken] : std::vector<std::pair<std::string, std::string>>{
+             {"eye [ LEFT ]", "eye [ RIGHT ]"}, {"period 2 phase 1", "period 2 phase 0"}}) {
+        const std::string text = found("STEREO", drawn, taken);
+        EXPECT_THAT(text, HasSubstr("f:5:1: warning: the outputframe \"f\" is never drawn for an "
+                                    "eye and in a frame in which it is taken here\n"));
+        EXPECT_THAT(text, HasSubstr("warning: nobody takes the outputframe \"f\"\n"));
+    }
+    EXPECT_EQ(found("STEREO", "eye [ LEFT ]", "eye [ LEFT RIGHT ]"), "");
+    EXPECT_EQ(found("STEREO", "period 4 phase 3", "period 2 phase 1"), "");
+    EXPECT_EQ(found("MONO", "eye [ LEFT ]", "eye [ RIGHT ]"), "");
+    EXPECT_EQ(found("MONO", "eye [ LEFT ]", ""), "") << "the view may be switched to STEREO";
 }
 
 TEST(EqcWarnings, SayThatChildrenDrawWhereTheirCompoundIsToldTo) {
@@ -513,6 +559,26 @@ TEST(EqcWarnings, SayWhichEyeNoCompoundDraws) {
                                   top + "task [ ASSEMBLE ] " + taken + " } }"),
                 HasSubstr("f:4:1: warning: no compound draws or assembles what the view shows, "
                           "that of the eye RIGHT"));
+}
+
+TEST(EqcWarnings, SayWhichCompoundsHaveNoneOfTheEyesAboveThem) {
+    const auto found = [](const std::string& mode, const std::string& compounds) {
+        std::string text =
+            withCompounds("\ncompound { channel ( segment 0 view 0 ) " + compounds + " }");
+        return describe(Read(text.replace(text.find("view {"), 6, "view { mode " + mode)).findings,
+                        "f");
+    };
+    const std::string none =
+        "f:3:1: warning: none of the compound's eyes are among those of the compound above it: it "
+        "does nothing\n";
+    const std::string left =
+        "eye [ CYCLOP LEFT ] compound {} \ncompound { eye [ RIGHT ] compound {} }";
+    EXPECT_EQ(found("STEREO", left), none);
+    EXPECT_EQ(found("MONO", left), none);
+    EXPECT_EQ(
+        found("STEREO", "compound {}\ncompound { eye [ CYCLOP ] compound { eye [ CYCLOP ] } }"),
+        "");
+    EXPECT_EQ(found("MONO", "compound {}\ncompound { eye [ LEFT ] }"), "");
 }
 
 TEST(EqcWarnings, SayWherePartsOfTheDataComeWithoutDepth) {

@@ -146,12 +146,45 @@ TEST(PlanCheck, WarnsOfDataThatNobodyDraws) {
               "range [ 0.5 1 ]: it is background\n");
 }
 
+TEST(PlanCheck, WarnsOfDataThatAStripWithoutDepthCovers) {
+    const auto strip = [](std::string_view range) {
+        return foundIn(withCompounds(fmt::format(
+            "compound {{ channel ( segment 0 view \"v\" ) buffer [ COLOR DEPTH ]\n"
+            "compound {{ range [ 0 .5 ] outputframe {{ name \"own\" }} }}\n"
+            "compound {{ channel \"b\" compound {{ range [ .5 1 ] outputframe {{ name "
+            "\"rest\" viewport [ .25 0 .75 1 ] }} }} {}\n"
+            "outputframe {{ name \"strip\" buffer [ COLOR ] viewport [ 0 0 .25 1 ] }} }}\n"
+            "inputframe {{ name \"rest\" }} inputframe {{ name \"strip\" }} }}",
+            range)));
+    };
+    EXPECT_EQ(strip("inputframe { name \"own\" }"), "");
+    EXPECT_EQ(strip(""),
+              "f:2:1: warning: nothing draws 12.5 % of what is shown, in viewport [ 0 0 0.25 1 ], "
+              "in range [ 0 0.5 ]: it is background\n");
+}
+
 TEST(PlanCheck, WarnsOfPixelsThatNobodyDraws) {
     EXPECT_EQ(foundIn(halves("pixel [ 0 0 2 1 ]", "pixel [ 1 0 2 1 ]")), "");
     EXPECT_EQ(foundIn(halves("pixel [ 0 0 3 1 ]", "pixel [ 1 0 3 1 ]")),
               "f:2:1: warning: nothing draws 33.3 % of what is shown: it is background\n");
     EXPECT_EQ(foundIn(halves("pixel [ 0 0 4 1 ]", "pixel [ 0 0 4 1 ]")),
               "f:2:1: warning: nothing draws 75 % of what is shown: it is background\n");
+}
+
+TEST(PlanCheck, WarnsOfPixelsBetweenSharesThatAreCountedDifferently) {
+    EXPECT_EQ(foundIn(halves("pixel [ 0 0 2 1 ]", "pixel [ 1 0 3 1 ]")),
+              "f:2:1: warning: nothing draws 33.3 % of what is shown: it is background\n");
+    EXPECT_EQ(foundIn(halves("pixel [ 0 0 2 1 ]", "pixel [ 0 1 1 2 ]")),
+              "f:2:1: warning: nothing draws 25 % of what is shown: it is background\n");
+    EXPECT_EQ(
+        foundIn(halves("pixel [ 0 0 2 1 ]", "viewport [ 0 0 .5 1 ] pixel [ 1 0 2 1 ]")),
+        "f:2:1: warning: nothing draws 25 % of what is shown, in viewport [ 0.5 0 0.5 1 ]: it "
+        "is background\n");
+    EXPECT_EQ(foundIn(withCompounds(
+                  "compound { channel ( segment 0 view \"v\" )\n"
+                  "compound { pixel [ 0 0 2 1 ] } compound { pixel [ 1 0 4 1 ] } compound { pixel "
+                  "[ 3 0 4 1 ] } }")),
+              "");
 }
 
 RC_GTEST_PROP(PlanCheck, FindsNoGapWhereAllIsDrawn, ()) {
