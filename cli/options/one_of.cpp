@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/options/near_name.h"
+#include "fabric/near_name.h"
 
 namespace eyrie::cli {
 
 std::string noneOf(const std::string& word, const std::vector<std::string>& names) {
     return fmt::format("'{}' is none of {}{}", word, fmt::join(names, ", "),
-                       didYouMean(word, names));
+                       fabric::didYouMean(word, names));
 }
 
 CLI::Validator oneOf(std::vector<std::string> names) {

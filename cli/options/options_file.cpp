@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/options/near_name.h"
 #include "cli/options/options_text.h"
+#include "fabric/near_name.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli {
@@ -65,8 +65,9 @@ absl::StatusOr<const CLI::App*> commandOf(const CLI::ConfigItem& item, const CLI
             std::vector<std::string> names;
             for (const CLI::App* one : command->get_subcommands({}))
                 names.push_back(one->get_name());
-            return absl::InvalidArgumentError(fmt::format(
-                "[{}] is no command{}", fmt::join(item.parents, "."), didYouMean(name, names)));
+            return absl::InvalidArgumentError(fmt::format("[{}] is no command{}",
+                                                          fmt::join(item.parents, "."),
+                                                          fabric::didYouMean(name, names)));
         }
         command = inner;
     }
@@ -86,7 +87,7 @@ absl::Status check(const CLI::ConfigItem& item, const CLI::App& app, const CLI::
     return absl::InvalidArgumentError(
         fmt::format("'{}' is no option of {}{}", item.name.substr(0, 64),
                     &command == &app ? "any command" : "eyrie " + pathOf(command),
-                    didYouMean(item.name, known)));
+                    fabric::didYouMean(item.name, known)));
 }
 
 /// `section` is around `command`, or is it.

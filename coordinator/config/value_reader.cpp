@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "fabric/near_name.h"
+
 namespace eyrie::config {
 namespace {
 
@@ -79,10 +81,17 @@ void ValueReader::block(const Statement& block, std::string_view what,
         if (entry != entries.end())
             entry->read(statement);
         else if (!statement.keyword.empty())
-            findings_.warning(
-                statement.place,
-                fmt::format("'{}' means nothing in {} and is left out", statement.keyword, what));
+            meansNothing(statement, what, entries);
     }
+}
+
+void ValueReader::meansNothing(const Statement& statement, std::string_view what,
+                               std::initializer_list<Entry> entries) {
+    std::vector<std::string> keywords;
+    for (const Entry& each : entries) keywords.emplace_back(each.keyword);
+    findings_.warning(statement.place,
+                      fmt::format("'{}' means nothing in {} and is left out{}", statement.keyword,
+                                  what, fabric::didYouMean(statement.keyword, keywords)));
 }
 
 const Scalar* ValueReader::single(const Statement& statement) {

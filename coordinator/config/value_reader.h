@@ -105,6 +105,8 @@ public:
     Findings& findings() { return findings_; }
 
 private:
+    void meansNothing(const Statement& statement, std::string_view what,
+                      std::initializer_list<Entry> entries);
     static std::string wordsOf(const std::vector<std::string_view>& words);
     void unknown(const Scalar& value, std::string_view what, std::size_t count);
     bool isList(const Statement& statement, std::size_t count, bool isWhole) const;

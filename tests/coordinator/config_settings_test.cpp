@@ -99,6 +99,18 @@ TEST(EqcWarnings, AreOfEverySettingOfEqualizersFilesThatHasNoEffect) {
     EXPECT_EQ(silent, soAnyway);
 }
 
+TEST(EqcWarnings, NameTheKeywordThatIsNearlyMeant) {
+    const auto found = [](const std::string& text) { return describe(Read(text).findings, "f"); };
+    EXPECT_EQ(found("config { node { pipe {}\nhosts \"x\" } }"),
+              "f:2:1: warning: 'hosts' means nothing in a node and is left out, did you mean "
+              "'host'?\n");
+    EXPECT_THAT(found(withCompounds("compound { channel ( segment 0 view 0 ) load_equaliser {} }")),
+                HasSubstr("'load_equaliser' means nothing in a compound and is left out, did you "
+                          "mean 'load_equalizer'?\n"));
+    EXPECT_EQ(found("config { nonsense 1 }"),
+              "f:1:10: warning: 'nonsense' means nothing in a config and is left out\n");
+}
+
 TEST(EqcWarnings, NameTheSettingThatIsMeantWhereCaseOrTypeIsAnother) {
     const auto found = [](const std::string& global, const std::string& own) {
         return describe(Read("global { " + global + " }\nserver { config {\nattributes { " + own +

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "cli/options/common_options.h"
-#include "cli/options/near_name.h"
 #include "cli/options/print_config.h"
 
 namespace eyrie::cli {
@@ -221,12 +220,6 @@ TEST_F(Program, NamesTheVariablesOfAllCommands) {
     for (const char* name : {"EYRIE_OPTIONS", "EYRIE_ALLOW_URL", "EYRIE_QUIET", "EYRIE_OUTPUT"})
         EXPECT_THAT(variables, testing::Contains(name));
     EXPECT_THAT(variables, testing::Not(testing::Contains("EYRIE_HELP")));
-}
-
-TEST(DidYouMean, ProposesOnlyWhatIsNear) {
-    EXPECT_EQ(didYouMean("lisen", {"listen", "quiet"}), ", did you mean 'listen'?");
-    EXPECT_EQ(didYouMean("verbosity", {"listen", "quiet"}), "");
-    EXPECT_EQ(didYouMean(std::string(1000, 'x'), {"listen"}), "");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Levenshtein, "Binary codes capable of correcting deletions, insertions, and reversals", 1966.
-#include "cli/options/near_name.h"
+#include "fabric/near_name.h"
 
 #include <algorithm>
 #include <numeric>
@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace eyrie::cli {
+namespace eyrie::fabric {
 namespace {
 
 std::size_t distance(std::string_view a, std::string_view b) {
@@ -28,7 +28,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string didYouMean(std::string_view name, const std::vector<std::string>& names) {
-    constexpr std::size_t kLongest = 64;  // nobody means an option by more
+    constexpr std::size_t kLongest = 64;  // nobody means an option or a keyword by more
     if (name.size() > kLongest)
         return "";
     std::size_t least = std::max<std::size_t>(1, name.size() / 3) + 1;
@@ -41,4 +41,4 @@ std::string didYouMean(std::string_view name, const std::vector<std::string>& na
     return nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest);
 }
 
-}  // namespace eyrie::cli
+}  // namespace eyrie::fabric
