@@ -112,14 +112,16 @@ std::int64_t firstFrom(std::int64_t begin, std::int64_t first, std::int64_t ever
     return before <= 0 ? -before : every - before;
 }
 
-/// How much is missing of the pixels of `area`, where each of `shares` is all over it, if that can
-/// be told.
-double missingOf(const PixelViewport& area, std::span<const Content* const> shares) {
-    constexpr std::int64_t kMostCells = 1'000'000;
+/// How much is missing of the pixels of `area`, where each of `shares` is all over it. Nothing
+/// where that takes more looks than are left.
+std::optional<double> missingOf(const PixelViewport& area, std::span<const Content* const> shares,
+                                std::int64_t& looksLeft) {
     const std::int64_t columns = periodOf(shares, area.width, &fabric::Regridding::everyColumn);
     const std::int64_t rows = periodOf(shares, area.height, &fabric::Regridding::everyRow);
-    if (columns * rows > kMostCells)
-        return 0;
+    const auto looksEach = static_cast<std::int64_t>(shares.size()) + 1;
+    if (columns * rows > looksLeft / looksEach)
+        return std::nullopt;
+    looksLeft -= columns * rows * looksEach;
     std::vector<bool> isThere(static_cast<std::size_t>(columns * rows), false);
     for (const Content* const each : shares) {
         const fabric::Regridding& share = *each->everyNth;
@@ -179,6 +181,7 @@ std::vector<Gap> Contents::gaps(const PixelViewport& area) const {
             return {};
     }
     std::vector<Gap> missing;
+    std::int64_t looksLeft = 1'000'000;
     for (std::size_t tried = 0; !open.empty(); ++tried) {
         if (tried > kLong)
             return {};
@@ -196,7 +199,8 @@ std::vector<Gap> Contents::gaps(const PixelViewport& area) const {
         if (part != nullptr) {
             for (const Block& beside : outside(block, *part)) open.push_back(beside);
             open.push_back(common(block, *part));
-        } else if (const double share = missingOf(block.area, there); share > 0) {
+        } else if (const auto share = missingOf(block.area, there, looksLeft).value_or(0);
+                   share > 0) {
             missing.push_back({block.area, block.range, share});
         }
     }

@@ -187,6 +187,18 @@ TEST(PlanCheck, WarnsOfPixelsBetweenSharesThatAreCountedDifferently) {
               "");
 }
 
+TEST(PlanCheck, SaysNothingOfPixelsThatTakeLongToCount) {
+    const auto found = [](const char* pixels) {
+        return foundIn(
+            withCompounds("compound { channel ( segment 0 view \"v\" )\n"
+                          "compound { pixel [ 0 0 1 2 ] } compound { pixel [ 0 0 1000 "
+                          "499 ] } }",
+                          pixels));
+    };
+    EXPECT_THAT(found("640 480"), HasSubstr("of what is shown: it is background"));
+    EXPECT_EQ(found("16384 16384"), "");
+}
+
 RC_GTEST_PROP(PlanCheck, FindsNoGapWhereAllIsDrawn, ()) {
     RandomCompounds random(*rc::gen::arbitrary<std::uint32_t>());
     const config::Configuration whole = random.maybe()
