@@ -14,6 +14,7 @@
 #include "cli/own_places.h"
 #include "coordinator/compound/plan_check.h"
 #include "coordinator/config/configuration_message.h"
+#include "coordinator/config/eqc_reader.h"
 #include "coordinator/config/eqc_writer.h"
 #include "fabric/status.h"
 
@@ -35,9 +36,13 @@ absl::Status checkNames(const Options& options) {
         fmt::format("--convert is '{}'; its name must end in .eqc or .json", options.convert));
 }
 
-absl::Status convert(const config::Configuration& configuration, const std::string& path) {
-    return writeText(
-        isJson(path) ? config::writeJson(configuration) : config::writeEqc(configuration), path);
+absl::Status convert(config::Configuration configuration, const std::string& path) {
+    if (isJson(path))
+        return writeText(config::writeJson(configuration), path);
+    // Without a version JSON is of the newest, and text of the oldest.
+    if (configuration.version.empty())
+        configuration.version = config::kNewestVersion;
+    return writeText(config::writeEqc(configuration), path);
 }
 
 absl::Status checkFile(const Options& options) {

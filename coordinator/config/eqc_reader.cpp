@@ -16,7 +16,7 @@
 namespace eyrie::config {
 namespace {
 
-constexpr std::array<std::string_view, 3> kVersions{"1.0", "1.1", "1.2"};
+constexpr std::array<std::string_view, 3> kVersions{"1.0", "1.1", kNewestVersion};
 constexpr std::int64_t kMostLatency = 1000;
 
 void readConfig(const Statement& block, ValueReader& reader, Configuration& configuration) {

@@ -9,6 +9,8 @@
 
 namespace eyrie::config {
 
+inline constexpr std::string_view kNewestVersion = "1.2";
+
 /// What statements, of whichever form of file, mean: here, and only here, limits are checked and
 /// references followed. Warns of names that two things have.
 Configuration readStatements(const EqcText& statements, Findings& findings);

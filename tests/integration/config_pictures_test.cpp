@@ -225,6 +225,28 @@ TEST_F(ConfigPictures, WhatIsStartedWithFewerRenderersIsSaid) {
         << outcome.output;
 }
 
+/// Expected is what the same configuration gives where it names the newest version: a view that its
+/// compound's eyes do not make stereo.
+TEST(ConvertedConfigurations, ThatNameNoVersionAreOfTheNewest) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder.path("a.eqc"))
+        << "#Equalizer 1.2 ascii\nserver { config { appNode { pipe { window { viewport [ 0 0 64 64 "
+           "] channel { name \"a\" } } } } layout { view {} } canvas { layout 0 wall {} segment { "
+           "channel \"a\" } } compound { channel ( segment 0 view 0 ) eye [ LEFT RIGHT ] } } }";
+    const auto convert = [&](const std::string& from, const std::string& to) {
+        const test::Outcome outcome =
+            test::eyrie({"check", folder.path(from), "--convert", folder.path(to)});
+        EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors;
+        std::ifstream file(folder.path(to));
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    std::string json = convert("a.eqc", "a.json");
+    const std::string version = "\"version\": \"1.2\",";
+    ASSERT_THAT(json, HasSubstr(version));
+    std::ofstream(folder.path("b.json")) << json.erase(json.find(version), version.size());
+    EXPECT_EQ(convert("b.json", "b.eqc"), convert("a.eqc", "again.eqc"));
+}
+
 TEST_F(ConfigPictures, WhatIsNotThereIsNamed) {
     const test::Outcome outcome = test::eyrie(
         {"render", folder_->path("ball.eym"), "--camera", folder_->path("cam.json"), "--config",
