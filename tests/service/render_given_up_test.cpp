@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calls that are stopped, cut off or never read to their end.
+#include <functional>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -13,22 +15,47 @@ namespace eyrie::service {
 namespace {
 
 using coordinator::ChannelRenderer;
-using RenderGivenUpTest = RenderServerTest;
+class RenderGivenUpTest : public RenderServerTest {
+protected:
+    using Deadline = ChannelRenderer::Clock::time_point;
+
+    /// `call` waits behind a picture until it is given up; the next picture is drawn.
+    void giveUpBeforeItsTurn(const std::function<absl::Status(ChannelRenderer&, Deadline)>& call) {
+        ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+        control_->hold();
+        std::jthread first([&] { EXPECT_TRUE(renderer_->render(task(8, 8, false), soon()).ok()); });
+        ASSERT_TRUE(eventually([&] { return control_->begun == 1; }));
+        const auto second = coordinator::connectRenderer(server_->address());
+        const auto shortly = ChannelRenderer::Clock::now() + std::chrono::milliseconds(50);
+        EXPECT_EQ(call(*second, shortly).code(), absl::StatusCode::kDeadlineExceeded);
+        // Its cancellation is ahead of these on the same connection.
+        for (int i = 0; i < 200; ++i) ASSERT_TRUE(second->setFrameData(frameData(), soon()).ok());
+        control_->release();
+        first.join();
+        ASSERT_TRUE(renderer_->render(task(8, 8, false), soon()).ok());
+    }
+};
+
+/// Calls for a picture, of which nothing is read.
+struct IdleReaders {
+    std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
+    std::vector<std::unique_ptr<grpc::ClientReader<v1::RenderChannelResponse>>> readers;
+
+    IdleReaders(v1::RenderService::Stub& stub, const fabric::ChannelTask& task, int count) {
+        v1::RenderChannelRequest request;
+        *request.mutable_task() = wire::toMessage(task);
+        for (int i = 0; i < count; ++i) {
+            contexts.push_back(std::make_unique<grpc::ClientContext>());
+            readers.push_back(stub.RenderChannel(contexts.back().get(), request));
+            readers.back()->WaitForInitialMetadata();
+        }
+    }
+};
 
 TEST_F(RenderGivenUpTest, ACallGivenUpBeforeItsTurnIsNotDrawn) {
-    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
-    control_->hold();
-    std::jthread first([&] { EXPECT_TRUE(renderer_->render(task(8, 8, false), soon()).ok()); });
-    ASSERT_TRUE(eventually([&] { return control_->begun == 1; }));
-    const auto second = coordinator::connectRenderer(server_->address());
-    const auto shortly = ChannelRenderer::Clock::now() + std::chrono::milliseconds(50);
-    EXPECT_EQ(second->render(task(8, 8, false), shortly).status().code(),
-              absl::StatusCode::kDeadlineExceeded);
-    // Its cancellation is ahead of these on the same connection.
-    for (int i = 0; i < 200; ++i) ASSERT_TRUE(second->setFrameData(frameData(), soon()).ok());
-    control_->release();
-    first.join();
-    ASSERT_TRUE(renderer_->render(task(8, 8, false), soon()).ok());
+    giveUpBeforeItsTurn([](ChannelRenderer& renderer, Deadline deadline) {
+        return renderer.render(task(8, 8, false), deadline).status();
+    });
     EXPECT_EQ(control_->drawn, 2);
 }
 
@@ -49,18 +76,10 @@ TEST_F(RenderGivenUpTest, AReaderThatGoesAwayMidPictureHoldsNothingUp) {
 
 TEST_F(RenderGivenUpTest, ReadersThatNeverReadAreBounded) {
     ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
-    v1::RenderChannelRequest request;
-    *request.mutable_task() = wire::toMessage(task(2000, 1300, true));
-    std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
-    std::vector<std::unique_ptr<grpc::ClientReader<v1::RenderChannelResponse>>> idle;
-    for (int i = 0; i < ReplySlots::kMaxOpen; ++i) {
-        contexts.push_back(std::make_unique<grpc::ClientContext>());
-        idle.push_back(stub_->RenderChannel(contexts.back().get(), request));
-        idle.back()->WaitForInitialMetadata();
-    }
+    const IdleReaders idle(*stub_, task(2000, 1300, true), ReplySlots::kMaxOpen);
     EXPECT_EQ(renderer_->render(task(8, 8, false), soon()).status().code(),
               absl::StatusCode::kResourceExhausted);
-    for (const auto& context : contexts) context->TryCancel();
+    for (const auto& context : idle.contexts) context->TryCancel();
     EXPECT_TRUE(eventually([&] { return renderer_->render(task(8, 8, false), soon()).ok(); }));
 }
 
@@ -71,36 +90,19 @@ TEST_F(RenderGivenUpTest, ReadersThatNeverReadAreGivenUpAfterAWhile) {
         impatient.addresses.front(), grpc::InsecureChannelCredentials(), wire::clientArguments()));
     const auto renderer = coordinator::connectRenderer(impatient.addresses.front());
     ASSERT_TRUE(renderer->setFrameData(frameData(), soon()).ok());
-    v1::RenderChannelRequest request;
-    *request.mutable_task() = wire::toMessage(task(2000, 1300, true));
-    std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
-    std::vector<std::unique_ptr<grpc::ClientReader<v1::RenderChannelResponse>>> idle;
-    for (int i = 0; i <= ReplySlots::kMaxOpen; ++i) {
-        contexts.push_back(std::make_unique<grpc::ClientContext>());
-        idle.push_back(stub->RenderChannel(contexts.back().get(), request));
-        idle.back()->WaitForInitialMetadata();
-    }
+    const IdleReaders idle(*stub, task(2000, 1300, true), ReplySlots::kMaxOpen + 1);
     EXPECT_TRUE(eventually([&] { return renderer->render(task(8, 8, false), soon()).ok(); }));
     v1::RenderChannelResponse message;
-    while (idle.front()->Read(&message)) {
+    while (idle.readers.front()->Read(&message)) {
     }
-    EXPECT_EQ(idle.front()->Finish().error_code(), grpc::StatusCode::CANCELLED);
+    EXPECT_EQ(idle.readers.front()->Finish().error_code(), grpc::StatusCode::CANCELLED);
     impatient.server->Shutdown();
 }
 
 TEST_F(RenderGivenUpTest, ASceneGivenUpBeforeItsTurnIsNotOpened) {
-    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
-    control_->hold();
-    std::jthread first([&] { EXPECT_TRUE(renderer_->render(task(8, 8, false), soon()).ok()); });
-    ASSERT_TRUE(eventually([&] { return control_->begun == 1; }));
-    const auto second = coordinator::connectRenderer(server_->address());
-    const auto shortly = ChannelRenderer::Clock::now() + std::chrono::milliseconds(50);
-    EXPECT_EQ(second->openScene({}, shortly).status().code(), absl::StatusCode::kDeadlineExceeded);
-    // Its cancellation is ahead of these on the same connection.
-    for (int i = 0; i < 200; ++i) ASSERT_TRUE(second->setFrameData(frameData(), soon()).ok());
-    control_->release();
-    first.join();
-    ASSERT_TRUE(renderer_->render(task(8, 8, false), soon()).ok());
+    giveUpBeforeItsTurn([](ChannelRenderer& renderer, Deadline deadline) {
+        return renderer.openScene({}, deadline).status();
+    });
     EXPECT_EQ(control_->opened, 0);
 }
 
