@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/config/unseen.h"
 
+#include <map>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -81,9 +83,20 @@ std::vector<Makers> makersOf(const ResolvedConfiguration& resolved) {
     return makers;
 }
 
-bool areOfOneView(const Destination& a, const Destination& b) {
-    return a.index.canvas == b.index.canvas && a.index.layout == b.index.layout &&
-           a.index.view == b.index.view;
+/// A view on a canvas.
+using Shown = std::tuple<std::size_t, std::size_t, std::size_t>;
+
+Shown shownBy(const Destination& destination) {
+    const DestinationIndex& index = destination.index;
+    return {index.canvas, index.layout, index.view};
+}
+
+/// The destinations of each view, one for each segment that it is on.
+std::map<Shown, std::vector<std::size_t>> segmentsOf(const ResolvedConfiguration& resolved) {
+    std::map<Shown, std::vector<std::size_t>> segments;
+    for (std::size_t i = 0; i < resolved.destinations.size(); ++i)
+        segments[shownBy(resolved.destinations[i])].push_back(i);
+    return segments;
 }
 
 /// Whether the segments lie over one another where the view is.
@@ -108,16 +121,18 @@ std::string namesOf(const Eyes& eyes) {
 void warnOfUnseen(const Configuration& configuration, const ResolvedConfiguration& resolved,
                   Findings& findings) {
     const std::vector<Makers> makers = makersOf(resolved);
+    const std::map<Shown, std::vector<std::size_t>> segments = segmentsOf(resolved);
     for (std::size_t i = 0; i < makers.size(); ++i) {
         const Destination& shown = resolved.destinations[i];
         Eyes missing = without(shown.eyes, makers[i].made);
         if (makers[i].first == nullptr || missing.isEmpty() || shown.pixelViewport.isEmpty())
             continue;
         // One that makes nothing at all is not said to leave it to others.
-        for (std::size_t other = 0; other < makers.size() && !makers[i].made.isEmpty(); ++other)
-            if (areOfOneView(shown, resolved.destinations[other]) &&
-                (makers[i].isOnHead || overlap(shown, resolved.destinations[other], configuration)))
-                missing = without(missing, makers[other].made);
+        if (!makers[i].made.isEmpty())
+            for (const std::size_t other : segments.at(shownBy(shown)))
+                if (makers[i].isOnHead ||
+                    overlap(shown, resolved.destinations[other], configuration))
+                    missing = without(missing, makers[other].made);
         if (!missing.isEmpty())
             findings.warning(makers[i].first->place(),
                              fmt::format("no compound draws or assembles what the view shows, that "
