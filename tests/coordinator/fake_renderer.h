@@ -99,8 +99,9 @@ public:
     std::atomic<int> most{0};                      ///< channels that it was drawing at once
     std::atomic<int> begun{0};
     std::atomic<int> drawn{0};
-    std::atomic<double> share{0};               ///< of the frame, that the last channel was
-    std::atomic<double> millisecondsAFrame{0};  ///< said to be taken for the whole of it
+    std::atomic<double> share{0};  ///< of the frame, that the last channel was
+    /// Said to be taken for the whole of it: so long that what the machine does besides is nothing.
+    std::atomic<double> millisecondsAFrame{1000};
     std::atomic<std::uint64_t> pagesLoaded{0};  ///< said to have been, for a channel
     std::atomic<int> picks{0};
     std::atomic<int> pickedObject{0};

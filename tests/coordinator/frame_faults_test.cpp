@@ -12,7 +12,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-class FrameFaults : public FramePipelineTest {};
+class FrameFaults : public FramePipelineTest {
+protected:
+    FrameFaults() : FramePipelineTest(milliseconds(100)) {}
+};
 
 INSTANTIATE_TEST_SUITE_P(Of, FrameFaults, testing::Values("2D", "DB dynamic"),
                          [](const auto& of) { return test::identifier(of.param); });

@@ -8,13 +8,9 @@
 namespace eyrie::coordinator {
 namespace {
 
-using std::chrono::seconds;
-
 /// Depths of LayeredScene tie all over. No part is taken for lost and drawn by another.
 class HardCase13 : public FramePipelineTest {
 protected:
-    HardCase13() : FramePipelineTest(seconds(50)) {}
-
     /// Draws a frame, the parts of which come in the order of `renderers`.
     absl::StatusOr<RenderedFrame> framePartByPart(
         const std::vector<std::shared_ptr<FakeRenderer>>& renderers) {
@@ -59,10 +55,7 @@ TEST_P(HardCase13, PicturesAreTheSameInWhateverOrderTiedPartsArrive) {
 
 /// The picture expected is the one that LayeredScene draws by its definition, whole. No part is
 /// taken for late, so each renderer draws its own.
-class HardCase27 : public FramePipelineTest {
-protected:
-    HardCase27() : FramePipelineTest(seconds(50)) {}
-};
+class HardCase27 : public FramePipelineTest {};
 
 INSTANTIATE_TEST_SUITE_P(Of, HardCase27, testing::Values("2D", "DB dynamic"),
                          [](const auto& of) { return test::identifier(of.param); });
@@ -81,8 +74,7 @@ TEST_P(HardCase27, PartsWithNothingInThemAreBackground) {
 
 TEST_P(HardCase27, ARendererTenTimesSlowerGetsATenthAndPicturesStayWhole) {
     const auto renderers = openWith(3);
-    for (const auto& renderer : renderers) renderer->millisecondsAFrame = 1000;
-    renderers[1]->millisecondsAFrame = 10000;
+    renderers[1]->millisecondsAFrame = 10'000;
     for (int i = 0; i < 20; ++i) expectWholePicture();
     // Equal times are shares of 10 : 1 : 10. A column of pixels of 41 is the finest cut in 2D.
     EXPECT_NEAR(renderers[0]->share, 10.0 / 21, 0.04);

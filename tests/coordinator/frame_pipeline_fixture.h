@@ -23,7 +23,8 @@ protected:
     static constexpr int kWidth = 41;
     static constexpr int kHeight = 23;
 
-    explicit FramePipelineTest(std::chrono::milliseconds patience = std::chrono::milliseconds(100))
+    /// With as much patience no part is taken for lost, however busy the machine is.
+    explicit FramePipelineTest(std::chrono::milliseconds patience = std::chrono::seconds(50))
         : FramePipelineTest(options(GetParam(), patience)) {}
     explicit FramePipelineTest(const FramePipelineOptions& options)
         : pipeline_(registry_, options) {}

@@ -121,10 +121,7 @@ TEST(FrameSequence, WhoIsNotEvenAskedForAViewSaysWhy) {
 }
 
 /// Through a pipeline of two renderers: pictures to the bit, and two under way at once.
-class SequenceOfAPipeline : public FramePipelineTest {
-protected:
-    SequenceOfAPipeline() : FramePipelineTest(std::chrono::seconds(50)) {}
-};
+class SequenceOfAPipeline : public FramePipelineTest {};
 INSTANTIATE_TEST_SUITE_P(By, SequenceOfAPipeline, testing::Values("2D", "DB static"),
                          [](const auto& of) { return test::identifier(of.param); });
 

@@ -52,7 +52,7 @@ private:
 /// No part is taken for lost and drawn by another.
 class FramesInFlight : public FramePipelineTest {
 protected:
-    FramesInFlight() : FramePipelineTest(seconds(50)) {}
+    FramesInFlight() = default;
     explicit FramesInFlight(const FramePipelineOptions& options) : FramePipelineTest(options) {}
 
     Asked ask() { return {pipeline_, request()}; }

@@ -317,7 +317,8 @@ TEST_P(ImpatientProgramsTest, ProgramsThatAreNeverAnsweredAreNotWaitedForLongerE
 }
 
 TEST_P(ProgramDrawingTest, WhatRenderersCannotSendEachOtherIsPutTogetherHere) {
-    const auto renderers = added({"10.0.0.7:1", "127.0.0.1:1"});
+    // The first to be ready is sent nothing: one of the last two is another.
+    const auto renderers = added({"10.0.0.7:1", "127.0.0.1:1", "127.0.0.1:2"});
     awaitAll(renderers, &ExchangingRenderer::channels);
     expectWholePicture();
     for (const auto& one : renderers) {
