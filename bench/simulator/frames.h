@@ -8,7 +8,7 @@
 
 namespace eyrie::simulator {
 
-/// Of frames that are all alike.
+/// Means of frames of one scene, over whole cycles of the configuration's periods.
 struct Prediction {
     double frameMilliseconds = 0;  ///< from its beginning to the whole picture
     double framesPerSecond = 0;    ///< with as many in flight as the configuration's latency says

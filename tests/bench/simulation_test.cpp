@@ -116,6 +116,22 @@ TEST(Prediction, HasNoMoreFramesUnderWayThanTheProgram) {
     EXPECT_NEAR(more->frameMilliseconds, most->frameMilliseconds, 1e-6);
 }
 
+TEST(Prediction, HasAsManyFramesUnderWayAsItsRateAndTheirTimesSay) {
+    Costs costs = trianglesOnly();
+    costs.assembleMegapixelMs = 1;
+    for (const int renderers : {8, 10, 12}) {
+        const Prediction dplex = predicted(renderers, "DPlex", costs, {});
+        EXPECT_NEAR(dplex.framesPerSecond * dplex.frameMilliseconds / 1000, 8, .05) << renderers;
+    }
+    config::Configuration one = layout(1, "one");
+    one.latency = 1;
+    Machines far;
+    far.latencyMilliseconds = 50;
+    const auto late = predict(one, costs, far, 4e5);
+    ASSERT_TRUE(late.ok());
+    EXPECT_NEAR(late->framesPerSecond * late->frameMilliseconds / 1000, 2, .01);
+}
+
 TEST(Prediction, GainsNothingFromRenderersThatShareOneCore) {
     Machines machines = instantLinks();
     machines.isOneMachine = true;
@@ -172,6 +188,17 @@ TEST(Prediction, DrawsOnceForEachEye) {
     ASSERT_TRUE(mono.ok() && stereo.ok() && left.ok());
     EXPECT_NEAR(stereo->processorMilliseconds, 2 * mono->processorMilliseconds, 1e-6);
     EXPECT_NEAR(left->processorMilliseconds, mono->processorMilliseconds, 1e-6);
+}
+
+TEST(Prediction, IsOverAllThatPeriodsMakeOfOneAnother) {
+    const auto prediction =
+        predictedOf("",
+                    "compound { period 2 } compound { channel \"b\" period 3 outputframe { } } "
+                    "inputframe { name \"frame.b\" }");
+    ASSERT_TRUE(prediction.ok()) << prediction.status();
+    EXPECT_NEAR(prediction->processorMilliseconds, 64 / 2. + 64 / 3., 1e-6);
+    // Of six frames the one draws three, and the other two of them meanwhile.
+    EXPECT_NEAR(prediction->framesPerSecond, 6 * 1000 / (3 * 64.), 1e-3);
 }
 
 TEST(Prediction, IsNotOfTilesThatRenderersFetch) {
