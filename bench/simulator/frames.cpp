@@ -48,13 +48,9 @@ public:
     Frame addFrame(std::int64_t number, std::optional<Id> start) {
         number_ = number;
         start_ = events_.addDelay(0, start ? std::vector<Id>{*start} : std::vector<Id>{});
-        findSent();
         for (std::size_t i = 0; i < resolved_.compounds.size(); ++i)
             if (resolved_.compounds[i].depth == 0)
-                visit(i, false);
-        for (const Arrival& arrival : arrivals_)
-            events_.addDependency(arrival.id, send(sent_.at(arrival.name), arrival.place));
-        arrivals_.clear();
+                addTree(i);
         return {start_, last_.back().value_or(start_)};
     }
 
@@ -124,9 +120,21 @@ private:
     }
     static double sizes(bool hasDepth) { return hasDepth ? 2 : 1; }
 
-    void findSent() {
+    /// Names of frames are of one tree.
+    void addTree(std::size_t root) {
+        findSent(root);
+        visit(root, false);
+        for (const Arrival& arrival : arrivals_)
+            events_.addDependency(arrival.id, send(sent_.at(arrival.name), arrival.place));
+        arrivals_.clear();
+    }
+
+    void findSent(std::size_t root) {
         sent_.clear();
-        for (const Compound& compound : resolved_.compounds) {
+        for (std::size_t i = root; i < resolved_.compounds.size(); ++i) {
+            const Compound& compound = resolved_.compounds[i];
+            if (i != root && compound.depth == 0)
+                return;
             if (!compound.tasks.readback || !isNow(compound))
                 continue;
             for (const config::ResolvedFrame& frame : compound.outputFrames) {

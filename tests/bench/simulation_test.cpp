@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -199,6 +200,44 @@ TEST(Prediction, IsOverAllThatPeriodsMakeOfOneAnother) {
     EXPECT_NEAR(prediction->processorMilliseconds, 64 / 2. + 64 / 3., 1e-6);
     // Of six frames the one draws three, and the other two of them meanwhile.
     EXPECT_NEAR(prediction->framesPerSecond, 6 * 1000 / (3 * 64.), 1e-3);
+}
+
+/// Two segments of half a canvas, of whose pictures others draw a half and nine tenths.
+absl::StatusOr<Prediction> predictedOfTwoTrees(const std::string& first,
+                                               const std::string& second) {
+    const auto tree = [](int segment, double own, const std::string& helper,
+                         const std::string& frame) {
+        return fmt::format(
+            "compound {{ channel ( segment {0} view 0 ) compound {{ viewport [ 0 0 {1} 1 ] }} "
+            "compound {{ viewport [ {1} 0 {2} 1 ] channel \"{3}\" outputframe {{ name "
+            "\"{4}\" }} }} inputframe {{ name \"{4}\" }} }} ",
+            segment, own, 1 - own, helper, frame);
+    };
+    std::string pipes;
+    for (const char* channel : {"a", "b", "c", "d"})
+        pipes += fmt::format(
+            "pipe {{ window {{ viewport [ 0 0 640 720 ] channel {{ name \"{}\" }} }} }} ", channel);
+    config::Findings findings;
+    const config::Configuration configuration =
+        config::readEqc("config { appNode { " + pipes +
+                            "} layout { view { } } canvas { layout 0 "
+                            "segment { channel \"a\" viewport [ 0 0 .5 1 ] } "
+                            "segment { channel \"b\" viewport [ .5 0 .5 1 ] } } " +
+                            tree(0, .5, "c", first) + tree(1, .1, "d", second) + "}",
+                        findings);
+    EXPECT_FALSE(findings.hasErrors()) << config::describe(findings, "the test's");
+    Costs costs = trianglesOnly();
+    costs.readbackMegapixelMs = 100;
+    return predict(configuration, costs, {}, 1e6);
+}
+
+TEST(Prediction, KeepsFramesOfTreesApartWhateverTheirNames) {
+    const auto same = predictedOfTwoTrees("f", "f");
+    const auto other = predictedOfTwoTrees("f", "g");
+    ASSERT_TRUE(same.ok() && other.ok()) << same.status() << other.status();
+    EXPECT_NEAR(same->frameMilliseconds, other->frameMilliseconds, 1e-6);
+    EXPECT_NEAR(same->framesPerSecond, other->framesPerSecond, 1e-6);
+    EXPECT_NEAR(same->bytes, other->bytes, 1e-3);
 }
 
 TEST(Prediction, IsNotOfTilesThatRenderersFetch) {
