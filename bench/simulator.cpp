@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <map>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +12,7 @@
 #include "bench/simulator/frames.h"
 #include "bench/simulator/layouts.h"
 #include "bench/simulator/plot.h"
+#include "bench/simulator/text.h"
 #include "coordinator/compound/equalizer/equalizers.h"
 #include "coordinator/config/eqc_reader.h"
 #include "coordinator/config/resolved.h"
@@ -64,12 +64,9 @@ constexpr const char* kHead =
     "renderers  cut           ms/frame  frames/s    cpu ms  efficiency   MB/frame\n";
 
 absl::Status predictFile(const Options& options, const Costs& costs, double triangles) {
-    std::ifstream in(options.configuration, std::ios::binary);
-    if (!in)
-        return absl::NotFoundError(fmt::format("{} cannot be read", options.configuration));
-    ASSIGN_OR_RETURN(
-        const config::Configuration configuration,
-        parsed(std::string(std::istreambuf_iterator<char>(in), {}), options.configuration));
+    ASSIGN_OR_RETURN(const std::string text, textOf(options.configuration));
+    ASSIGN_OR_RETURN(const config::Configuration configuration,
+                     parsed(text, options.configuration));
     ASSIGN_OR_RETURN(const Prediction p,
                      predict(shared(configuration), costs, options.machines, triangles));
     fmt::print("{:.2f} ms a frame, {:.1f} frames a second, {:.1f} ms of processors, {:.2f} MB\n",

@@ -9,6 +9,7 @@
 #include "bench/simulator/events.h"
 #include "bench/simulator/frames.h"
 #include "bench/simulator/layouts.h"
+#include "bench/simulator/text.h"
 #include "coordinator/config/eqc_reader.h"
 
 namespace eyrie::simulator {
@@ -257,6 +258,39 @@ TEST(Costs, NameTheLineThatTheyCannotTake) {
     EXPECT_FALSE(readCosts(path).ok());
     EXPECT_FALSE(readTriangles(path).ok());
     EXPECT_EQ(readCosts("no such file").status().code(), absl::StatusCode::kNotFound);
+}
+
+TEST(Costs, AreNotTakenToBeNothingWhereTheyAreMissing) {
+    const std::string path = testing::TempDir() + "costs.csv";
+    std::ofstream(path) << "";
+    EXPECT_FALSE(readCosts(path).ok());
+    std::ofstream(path) << "task_ms,3\nmillion_triangles_ms,42\nreadback_megapixel_ms,1\n"
+                           "merge_megapixel_ms,3\nthreads,2\noverlap,0\npacked,1\n";
+    EXPECT_THAT(readCosts(path).status().ToString(),
+                testing::HasSubstr("costs.csv: assemble_megapixel_ms, megapixel_ms missing"));
+}
+
+TEST(Costs, AreReadWhateverEndsTheirLines) {
+    const std::string path = testing::TempDir() + "costs.csv";
+    std::ofstream(path) << "# what\r\n\r\ntask_ms,3\r\nmillion_triangles_ms,42\r\n"
+                           "megapixel_ms,43\r\nreadback_megapixel_ms,1\r\n"
+                           "assemble_megapixel_ms,1\r\nmerge_megapixel_ms,3\r\n"
+                           "threads,2\r\noverlap,0\r\npacked,1\r\n";
+    const auto costs = readCosts(path);
+    ASSERT_TRUE(costs.ok()) << costs.status();
+    EXPECT_EQ(costs->taskMs, 3);
+    std::ofstream(path) << "renderers,pass,triangles\r\n1,1,5\r\n";
+    const auto triangles = readTriangles(path);
+    ASSERT_TRUE(triangles.ok()) << triangles.status();
+    EXPECT_THAT(*triangles, testing::ElementsAre(5));
+}
+
+TEST(Costs, AreNoFolder) {
+    for (const absl::Status& status :
+         {readCosts(testing::TempDir()).status(), readTriangles(testing::TempDir()).status(),
+          textOf(testing::TempDir()).status()})
+        EXPECT_THAT(std::string(status.message()),
+                    testing::EndsWith("this is a folder, not a file"));
 }
 
 TEST(Costs, AreReadFromTheMeasuredOnes) {
