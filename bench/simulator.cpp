@@ -32,11 +32,15 @@ struct Options {
     Machines machines;
 };
 
+/// Tells what else is found in it, as `eyrie check` does.
 absl::StatusOr<config::Configuration> parsed(const std::string& text, const std::string& name) {
     config::Findings findings;
     config::Configuration configuration = config::readEqc(text, findings);
+    if (!findings.hasErrors())
+        config::resolve(configuration, findings);
     if (findings.hasErrors())
         return absl::InvalidArgumentError(config::describe(findings, name));
+    fmt::print(stderr, "{}", config::describe(findings, name));
     return configuration;
 }
 
@@ -138,9 +142,14 @@ int main(int argc, char** argv) {
     app.add_option("--renderers", options.renderers, "Numbers for the table")
         ->delimiter(',')
         ->check(CLI::Range(1, 128))
+        ->excludes("--config")
         ->capture_default_str();
-    app.add_option("--width", options.width, "Of the picture")->check(CLI::Range(1, 16384));
-    app.add_option("--height", options.height, "Of the picture")->check(CLI::Range(1, 16384));
+    app.add_option("--width", options.width, "Of the picture")
+        ->check(CLI::Range(1, 16384))
+        ->excludes("--config");
+    app.add_option("--height", options.height, "Of the picture")
+        ->check(CLI::Range(1, 16384))
+        ->excludes("--config");
     app.add_option("--per-host", options.machines.renderersPerHost, "Renderers of a host")
         ->check(CLI::Range(1, 128));
     app.add_option("--cores", options.machines.cores, "Of a host")->check(CLI::PositiveNumber);
