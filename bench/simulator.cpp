@@ -32,7 +32,7 @@ struct Options {
     Machines machines;
 };
 
-/// Tells what else is found in it, as `eyrie check` does.
+/// Tells what is found in it besides errors.
 absl::StatusOr<config::Configuration> parsed(const std::string& text, const std::string& name) {
     config::Findings findings;
     config::Configuration configuration = config::readEqc(text, findings);
