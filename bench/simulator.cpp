@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <map>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +12,7 @@
 #include "bench/simulator/frames.h"
 #include "bench/simulator/layouts.h"
 #include "bench/simulator/plot.h"
+#include "bench/simulator/text.h"
 #include "coordinator/compound/equalizer/equalizers.h"
 #include "coordinator/config/eqc_reader.h"
 #include "coordinator/config/resolved.h"
@@ -32,11 +32,15 @@ struct Options {
     Machines machines;
 };
 
+/// Tells what is found in it besides errors.
 absl::StatusOr<config::Configuration> parsed(const std::string& text, const std::string& name) {
     config::Findings findings;
     config::Configuration configuration = config::readEqc(text, findings);
+    if (!findings.hasErrors())
+        config::resolve(configuration, findings);
     if (findings.hasErrors())
         return absl::InvalidArgumentError(config::describe(findings, name));
+    fmt::print(stderr, "{}", config::describe(findings, name));
     return configuration;
 }
 
@@ -64,12 +68,9 @@ constexpr const char* kHead =
     "renderers  cut           ms/frame  frames/s    cpu ms  efficiency   MB/frame\n";
 
 absl::Status predictFile(const Options& options, const Costs& costs, double triangles) {
-    std::ifstream in(options.configuration, std::ios::binary);
-    if (!in)
-        return absl::NotFoundError(fmt::format("{} cannot be read", options.configuration));
-    ASSIGN_OR_RETURN(
-        const config::Configuration configuration,
-        parsed(std::string(std::istreambuf_iterator<char>(in), {}), options.configuration));
+    ASSIGN_OR_RETURN(const std::string text, textOf(options.configuration));
+    ASSIGN_OR_RETURN(const config::Configuration configuration,
+                     parsed(text, options.configuration));
     ASSIGN_OR_RETURN(const Prediction p,
                      predict(shared(configuration), costs, options.machines, triangles));
     fmt::print("{:.2f} ms a frame, {:.1f} frames a second, {:.1f} ms of processors, {:.2f} MB\n",
@@ -141,9 +142,14 @@ int main(int argc, char** argv) {
     app.add_option("--renderers", options.renderers, "Numbers for the table")
         ->delimiter(',')
         ->check(CLI::Range(1, 128))
+        ->excludes("--config")
         ->capture_default_str();
-    app.add_option("--width", options.width, "Of the picture")->check(CLI::Range(1, 16384));
-    app.add_option("--height", options.height, "Of the picture")->check(CLI::Range(1, 16384));
+    app.add_option("--width", options.width, "Of the picture")
+        ->check(CLI::Range(1, 16384))
+        ->excludes("--config");
+    app.add_option("--height", options.height, "Of the picture")
+        ->check(CLI::Range(1, 16384))
+        ->excludes("--config");
     app.add_option("--per-host", options.machines.renderersPerHost, "Renderers of a host")
         ->check(CLI::Range(1, 128));
     app.add_option("--cores", options.machines.cores, "Of a host")->check(CLI::PositiveNumber);

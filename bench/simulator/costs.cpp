@@ -4,23 +4,28 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <map>
+#include <ranges>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "bench/simulator/text.h"
 #include "fabric/status.h"
 
 namespace eyrie::simulator {
 namespace {
 
 absl::StatusOr<std::vector<std::string>> linesOf(const std::string& path) {
-    std::ifstream in(path);
-    if (!in)
-        return absl::NotFoundError(fmt::format("{} cannot be read", path));
+    ASSIGN_OR_RETURN(std::string text, textOf(path));
+    std::istringstream in(std::move(text));
     std::vector<std::string> lines;
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    for (std::string line; std::getline(in, line);) {
+        if (line.ends_with('\r'))  // as Windows ends lines
+            line.pop_back();
+        lines.push_back(line);
+    }
     return lines;
 }
 
@@ -55,6 +60,7 @@ absl::StatusOr<Costs> readCosts(const std::string& path) {
         {"threads", &costs.threads},
         {"overlap", &costs.overlap},
         {"packed", &costs.packed}};
+    std::map<std::string, double*> missing = known;
     ASSIGN_OR_RETURN(const std::vector<std::string> lines, linesOf(path));
     for (std::size_t i = 0; i < lines.size(); ++i) {
         if (lines[i].empty() || lines[i].front() == '#')
@@ -66,7 +72,12 @@ absl::StatusOr<Costs> readCosts(const std::string& path) {
                 fmt::format("{}:{}: \"{}\" is no cost that is known; a line is name,value", path,
                             i + 1, lines[i]));
         ASSIGN_OR_RETURN(*found->second, numberOf(fields[1], path, i + 1));
+        missing.erase(fields[0]);
     }
+    if (!missing.empty())
+        return absl::InvalidArgumentError(
+            fmt::format("{}: {} missing; give each a line name,value, as bench/data/costs.csv does",
+                        path, fmt::join(std::views::keys(missing), ", ")));
     costs.threads = std::max(costs.threads, 1e-3);
     costs.overlap = std::min(costs.overlap, 1.0);
     return costs;

@@ -29,7 +29,8 @@ struct Machines {
     double latencyMilliseconds = .1;  ///< one way
 };
 
-/// "name,value" a line, '#' before a remark. Errors: NotFound, InvalidArgument, with the line.
+/// "name,value" a line, '#' before a remark. Errors: NotFound, InvalidArgument, with the line or
+/// the costs that are missing.
 absl::StatusOr<Costs> readCosts(const std::string& path);
 
 /// The triangles of each frame of the measured passes, drawn whole, of the frames.csv that

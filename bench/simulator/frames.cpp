@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +19,8 @@ namespace {
 
 constexpr double kBytesPerPixel = 4;  ///< of colour, and again of depth
 constexpr double kMillion = 1e6;
+constexpr std::int64_t kMostFrames = 1024;  ///< that count: rates are within a hundredth then
+constexpr double kMostSteps = 1 << 13;      ///< of these, beyond one cycle: more take minutes
 
 /// The events of frames of a configuration.
 class Farm {
@@ -45,13 +48,9 @@ public:
     Frame addFrame(std::int64_t number, std::optional<Id> start) {
         number_ = number;
         start_ = events_.addDelay(0, start ? std::vector<Id>{*start} : std::vector<Id>{});
-        findSent();
         for (std::size_t i = 0; i < resolved_.compounds.size(); ++i)
             if (resolved_.compounds[i].depth == 0)
-                visit(i, false);
-        for (const Arrival& arrival : arrivals_)
-            events_.addDependency(arrival.id, send(sent_.at(arrival.name), arrival.place));
-        arrivals_.clear();
+                addTree(i);
         return {start_, last_.back().value_or(start_)};
     }
 
@@ -121,9 +120,21 @@ private:
     }
     static double sizes(bool hasDepth) { return hasDepth ? 2 : 1; }
 
-    void findSent() {
+    /// Names of frames are of one tree.
+    void addTree(std::size_t root) {
+        findSent(root);
+        visit(root, false);
+        for (const Arrival& arrival : arrivals_)
+            events_.addDependency(arrival.id, send(sent_.at(arrival.name), arrival.place));
+        arrivals_.clear();
+    }
+
+    void findSent(std::size_t root) {
         sent_.clear();
-        for (const Compound& compound : resolved_.compounds) {
+        for (std::size_t i = root; i < resolved_.compounds.size(); ++i) {
+            const Compound& compound = resolved_.compounds[i];
+            if (i != root && compound.depth == 0)
+                return;
             if (!compound.tasks.readback || !isNow(compound))
                 continue;
             for (const config::ResolvedFrame& frame : compound.outputFrames) {
@@ -261,11 +272,20 @@ private:
     bool fetchesTiles_ = false;
 };
 
-std::int64_t longestPeriod(const config::ResolvedConfiguration& resolved) {
-    std::int64_t longest = 1;
-    for (const config::ResolvedCompound& compound : resolved.compounds)
-        longest = std::clamp<std::int64_t>(compound.period, longest, 1024);
-    return longest;
+/// Those that count: whole cycles, after each of which the same is drawn with as many under way;
+/// several of them, for frames in flight do not come evenly.
+std::int64_t framesThatCount(const config::ResolvedConfiguration& resolved, std::int64_t underWay) {
+    std::int64_t cycle = underWay;
+    double steps = 1;
+    for (const config::ResolvedCompound& compound : resolved.compounds) {
+        cycle = std::min(std::lcm(cycle, std::min(compound.period, kMostFrames)), kMostFrames);
+        steps += static_cast<double>(1 + compound.outputFrames.size()) /
+                 static_cast<double>(compound.period);
+    }
+    if (underWay == 1)
+        return cycle;
+    const auto most = static_cast<std::int64_t>(kMostSteps / steps);
+    return cycle * std::max<std::int64_t>(1, std::min(most, kMostFrames) / cycle);
 }
 
 }  // namespace
@@ -277,17 +297,17 @@ absl::StatusOr<Prediction> predict(const config::Configuration& configuration, c
     if (findings.hasErrors())
         return absl::InvalidArgumentError(config::describe(findings, "the configuration"));
     Farm farm(configuration, resolved, costs, machines, triangles);
-    const std::int64_t period = longestPeriod(resolved);
     const std::int64_t underWay = config::framesUnderWay(configuration.latency);
     const auto latency = static_cast<std::size_t>(underWay - 1);
-    // The first periods fill what is in flight; frames of the last one are those that count.
-    const std::int64_t count = latency == 0 ? period : 3 * std::max(period, underWay);
+    const auto counted = static_cast<std::size_t>(framesThatCount(resolved, underWay));
+    // As many before them: those that begin together take hundreds to spread out.
+    const std::size_t first = latency == 0 ? 0 : counted;
     std::vector<Farm::Frame> frames;
-    for (std::int64_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < first + counted; ++i) {
         const auto before = frames.size() > latency
                                 ? std::optional<Id>(frames[frames.size() - 1 - latency].done)
                                 : std::nullopt;
-        frames.push_back(farm.addFrame(i, before));
+        frames.push_back(farm.addFrame(static_cast<std::int64_t>(i), before));
     }
     if (!farm.hasDrawn())
         return absl::InvalidArgumentError("the configuration draws nothing");
@@ -298,15 +318,13 @@ absl::StatusOr<Prediction> predict(const config::Configuration& configuration, c
     if (!farm.events().run())
         return absl::InvalidArgumentError("frames of the configuration wait for each other");
     const auto done = [&](std::size_t i) { return farm.events().doneAt(frames[i].done); };
-    const std::size_t last = frames.size() - 1;
-    const auto counted = std::min(static_cast<std::size_t>(period), last);
     Prediction prediction;
-    prediction.frameMilliseconds = done(last) - farm.events().doneAt(frames[last].begun);
-    const double interval =
-        latency == 0 || counted == 0
-            ? done(last) / static_cast<double>(frames.size())
-            : (done(last) - done(last - counted)) / static_cast<double>(counted);
-    prediction.framesPerSecond = 1000 / interval;
+    for (std::size_t i = first; i < frames.size(); ++i)
+        prediction.frameMilliseconds +=
+            (done(i) - farm.events().doneAt(frames[i].begun)) / static_cast<double>(counted);
+    const double begun = first == 0 ? 0 : done(first - 1);
+    prediction.framesPerSecond =
+        1000 * static_cast<double>(counted) / (done(frames.size() - 1) - begun);
     prediction.bytes = farm.bytes() / static_cast<double>(frames.size());
     prediction.processorMilliseconds =
         farm.processorMilliseconds() / static_cast<double>(frames.size());

@@ -8,7 +8,7 @@
 
 namespace eyrie::simulator {
 
-/// Of frames that are all alike.
+/// Means of frames of one scene, over whole cycles of the configuration's periods.
 struct Prediction {
     double frameMilliseconds = 0;  ///< from its beginning to the whole picture
     double framesPerSecond = 0;    ///< with as many in flight as the configuration's latency says
@@ -16,7 +16,7 @@ struct Prediction {
     double processorMilliseconds = 0;  ///< of all cores, a frame
 };
 
-/// What frames of `triangles` take with `configuration`'s first compound tree whose pictures are
+/// What frames of `triangles` take with all compound trees of `configuration` whose pictures are
 /// shown, one renderer to a pipe. The steps are those of the configuration: draw, read back, send,
 /// assemble, in the order written for each channel; what the destination's channel has goes to the
 /// coordinator, which assembles it with the frames that its root takes.

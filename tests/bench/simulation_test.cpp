@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include "bench/simulator/events.h"
 #include "bench/simulator/frames.h"
 #include "bench/simulator/layouts.h"
+#include "bench/simulator/text.h"
 #include "coordinator/config/eqc_reader.h"
 
 namespace eyrie::simulator {
@@ -116,6 +118,22 @@ TEST(Prediction, HasNoMoreFramesUnderWayThanTheProgram) {
     EXPECT_NEAR(more->frameMilliseconds, most->frameMilliseconds, 1e-6);
 }
 
+TEST(Prediction, HasAsManyFramesUnderWayAsItsRateAndTheirTimesSay) {
+    Costs costs = trianglesOnly();
+    costs.assembleMegapixelMs = 1;
+    for (const int renderers : {8, 10, 12}) {
+        const Prediction dplex = predicted(renderers, "DPlex", costs, {});
+        EXPECT_NEAR(dplex.framesPerSecond * dplex.frameMilliseconds / 1000, 8, .05) << renderers;
+    }
+    config::Configuration one = layout(1, "one");
+    one.latency = 1;
+    Machines far;
+    far.latencyMilliseconds = 50;
+    const auto late = predict(one, costs, far, 4e5);
+    ASSERT_TRUE(late.ok());
+    EXPECT_NEAR(late->framesPerSecond * late->frameMilliseconds / 1000, 2, .01);
+}
+
 TEST(Prediction, GainsNothingFromRenderersThatShareOneCore) {
     Machines machines = instantLinks();
     machines.isOneMachine = true;
@@ -174,6 +192,55 @@ TEST(Prediction, DrawsOnceForEachEye) {
     EXPECT_NEAR(left->processorMilliseconds, mono->processorMilliseconds, 1e-6);
 }
 
+TEST(Prediction, IsOverAllThatPeriodsMakeOfOneAnother) {
+    const auto prediction =
+        predictedOf("",
+                    "compound { period 2 } compound { channel \"b\" period 3 outputframe { } } "
+                    "inputframe { name \"frame.b\" }");
+    ASSERT_TRUE(prediction.ok()) << prediction.status();
+    EXPECT_NEAR(prediction->processorMilliseconds, 64 / 2. + 64 / 3., 1e-6);
+    // Of six frames the one draws three, and the other two of them meanwhile.
+    EXPECT_NEAR(prediction->framesPerSecond, 6 * 1000 / (3 * 64.), 1e-3);
+}
+
+/// Two segments of half a canvas, of whose pictures others draw a half and nine tenths.
+absl::StatusOr<Prediction> predictedOfTwoTrees(const std::string& first,
+                                               const std::string& second) {
+    const auto tree = [](int segment, double own, const std::string& helper,
+                         const std::string& frame) {
+        return fmt::format(
+            "compound {{ channel ( segment {0} view 0 ) compound {{ viewport [ 0 0 {1} 1 ] }} "
+            "compound {{ viewport [ {1} 0 {2} 1 ] channel \"{3}\" outputframe {{ name "
+            "\"{4}\" }} }} inputframe {{ name \"{4}\" }} }} ",
+            segment, own, 1 - own, helper, frame);
+    };
+    std::string pipes;
+    for (const char* channel : {"a", "b", "c", "d"})
+        pipes += fmt::format(
+            "pipe {{ window {{ viewport [ 0 0 640 720 ] channel {{ name \"{}\" }} }} }} ", channel);
+    config::Findings findings;
+    const config::Configuration configuration =
+        config::readEqc("config { appNode { " + pipes +
+                            "} layout { view { } } canvas { layout 0 "
+                            "segment { channel \"a\" viewport [ 0 0 .5 1 ] } "
+                            "segment { channel \"b\" viewport [ .5 0 .5 1 ] } } " +
+                            tree(0, .5, "c", first) + tree(1, .1, "d", second) + "}",
+                        findings);
+    EXPECT_FALSE(findings.hasErrors()) << config::describe(findings, "the test's");
+    Costs costs = trianglesOnly();
+    costs.readbackMegapixelMs = 100;
+    return predict(configuration, costs, {}, 1e6);
+}
+
+TEST(Prediction, KeepsFramesOfTreesApartWhateverTheirNames) {
+    const auto same = predictedOfTwoTrees("f", "f");
+    const auto other = predictedOfTwoTrees("f", "g");
+    ASSERT_TRUE(same.ok() && other.ok()) << same.status() << other.status();
+    EXPECT_NEAR(same->frameMilliseconds, other->frameMilliseconds, 1e-6);
+    EXPECT_NEAR(same->framesPerSecond, other->framesPerSecond, 1e-6);
+    EXPECT_NEAR(same->bytes, other->bytes, 1e-3);
+}
+
 TEST(Prediction, IsNotOfTilesThatRenderersFetch) {
     const auto tiles = predictedOf(
         "",
@@ -191,6 +258,39 @@ TEST(Costs, NameTheLineThatTheyCannotTake) {
     EXPECT_FALSE(readCosts(path).ok());
     EXPECT_FALSE(readTriangles(path).ok());
     EXPECT_EQ(readCosts("no such file").status().code(), absl::StatusCode::kNotFound);
+}
+
+TEST(Costs, AreNotTakenToBeNothingWhereTheyAreMissing) {
+    const std::string path = testing::TempDir() + "costs.csv";
+    std::ofstream(path) << "";
+    EXPECT_FALSE(readCosts(path).ok());
+    std::ofstream(path) << "task_ms,3\nmillion_triangles_ms,42\nreadback_megapixel_ms,1\n"
+                           "merge_megapixel_ms,3\nthreads,2\noverlap,0\npacked,1\n";
+    EXPECT_THAT(readCosts(path).status().ToString(),
+                testing::HasSubstr("costs.csv: assemble_megapixel_ms, megapixel_ms missing"));
+}
+
+TEST(Costs, AreReadWhateverEndsTheirLines) {
+    const std::string path = testing::TempDir() + "costs.csv";
+    std::ofstream(path) << "# what\r\n\r\ntask_ms,3\r\nmillion_triangles_ms,42\r\n"
+                           "megapixel_ms,43\r\nreadback_megapixel_ms,1\r\n"
+                           "assemble_megapixel_ms,1\r\nmerge_megapixel_ms,3\r\n"
+                           "threads,2\r\noverlap,0\r\npacked,1\r\n";
+    const auto costs = readCosts(path);
+    ASSERT_TRUE(costs.ok()) << costs.status();
+    EXPECT_EQ(costs->taskMs, 3);
+    std::ofstream(path) << "renderers,pass,triangles\r\n1,1,5\r\n";
+    const auto triangles = readTriangles(path);
+    ASSERT_TRUE(triangles.ok()) << triangles.status();
+    EXPECT_THAT(*triangles, testing::ElementsAre(5));
+}
+
+TEST(Costs, AreNoFolder) {
+    for (const absl::Status& status :
+         {readCosts(testing::TempDir()).status(), readTriangles(testing::TempDir()).status(),
+          textOf(testing::TempDir()).status()})
+        EXPECT_THAT(std::string(status.message()),
+                    testing::EndsWith("this is a folder, not a file"));
 }
 
 TEST(Costs, AreReadFromTheMeasuredOnes) {
