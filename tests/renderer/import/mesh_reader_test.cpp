@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -227,6 +228,47 @@ TEST(MeshReader, RefusesTexturesOfAbsurdSize) {
     EXPECT_THAT(mesh->notes, testing::ElementsAre(HasSubstr("'a.tga' has 32513 x 32513 texels, "
                                                             "more than 8192 a side")));
     EXPECT_EQ(mesh->colours[0], (fabric::Rgba{0, 0, 255, 255}));
+}
+
+/// A BMP of 64 x 64 grey texels of three bytes.
+std::string bmpOf64() {
+    std::string file(54, '\0');
+    file[0] = 'B', file[1] = 'M', file[10] = 54, file[14] = 40;
+    file[18] = file[22] = 64, file[26] = 1, file[28] = 24;
+    return file + std::string(std::size_t{64} * 64 * 3, '\x40');
+}
+
+/// Longer than what stb_image reads ahead and hardly longer, and in runs.
+TEST(MeshReader, CallsImagesThatAreCutOffDamaged) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    std::string runs = test::tgaOf(64, 64, {});
+    runs[2] = 10;
+    for (int i = 0; i < 32; ++i)
+        runs +=
+            "\xFF"
+            "bgra";
+    const std::string coded = "newmtl tiles\nmap_Kd a.";
+    const auto notesOf = [&](const std::string& ending, const std::string& image) {
+        test::writeFile(folder.file("m.mtl"), coded + ending);
+        test::writeFile(folder.file("a." + ending), image);
+        return readMesh(folder.file("m.obj"))->notes;
+    };
+    for (const auto& [ending, image] :
+         {std::pair("tga", test::tgaOf(64, 64, std::vector<fabric::Rgba>(64 * 64))),
+          {"tga", test::tgaOf(6, 5, std::vector<fabric::Rgba>(6 * 5))},
+          {"tga", runs},
+          {"bmp", bmpOf64()}}) {
+        EXPECT_THAT(notesOf(ending, image),
+                    testing::Not(testing::Contains(HasSubstr("a." + std::string(ending)))));
+        EXPECT_THAT(notesOf(ending, image + "more"),
+                    testing::Not(testing::Contains(HasSubstr("damaged"))));
+        for (const std::size_t length : {image.size() - 1, image.size() - 100, image.size() / 2})
+            EXPECT_THAT(notesOf(ending, image.substr(0, length)),
+                        testing::Contains(HasSubstr(
+                            fmt::format("'a.{}' is damaged (it ends too early)", ending))))
+                << length;
+    }
 }
 
 /// An SGI image of 3 x 2 texels with alpha, rows from the bottom, one channel after the other.
