@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <optional>
@@ -13,6 +14,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <absl/status/status.h>
 #include <assimp/IOSystem.hpp>
@@ -29,7 +31,7 @@
 #include "renderer/import/assimp_meshes.h"
 #include "renderer/import/gltf_extensions.h"
 #include "renderer/import/gltf_unpacking.h"
-#include "renderer/import/obj_textures.h"
+#include "renderer/import/obj_materials.h"
 #include "renderer/import/stl_colours.h"
 #include "renderer/import/stl_length.h"
 #include "renderer/mesh/mapped_file.h"
@@ -75,7 +77,7 @@ absl::StatusOr<std::optional<std::string>> instead(const mesh::MappedFile& file,
 
 /// Null with the importer's own message where it cannot.
 absl::StatusOr<const aiScene*> parse(Assimp::Importer& importer, const std::string& path,
-                                     const AssimpFormat& format) {
+                                     const AssimpFormat& format, std::vector<std::string>& notes) {
     ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
     ASSIGN_OR_RETURN(const std::optional<std::string> text, instead(file, path, format));
     if (text)
@@ -85,7 +87,7 @@ absl::StatusOr<const aiScene*> parse(Assimp::Importer& importer, const std::stri
                                                                         : "ac");
     const aiScene* scene = importer.ReadFile(path, 0);
     if (scene != nullptr && format.extension == ".obj")
-        applyObjTextures(path, textOf(file), *scene);
+        notes = applyObjMaterials(path, textOf(file), *scene);
     return scene;
 }
 
@@ -95,12 +97,14 @@ absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& f
         Assimp::Importer importer;
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, 0);  // this file alone
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);  // none made of bones
-        importer.SetIOHandler(assimpFiles(format).release());                 // which it deletes
-        ASSIGN_OR_RETURN(const aiScene* scene, parse(importer, path, format));
+        importer.SetIOHandler(assimpFiles(format, path).release());           // which it deletes
+        std::vector<std::string> notes;
+        ASSIGN_OR_RETURN(const aiScene* scene, parse(importer, path, format, notes));
         if (scene != nullptr) {
             absl::StatusOr<TriangleMesh> mesh = gatherMeshes(*scene, format);
+            std::ranges::move(log.notes(), std::back_inserter(notes));
             if (mesh.ok())
-                for (std::string& note : log.notes()) mesh->notes.push_back(std::move(note));
+                std::ranges::move(notes, std::back_inserter(mesh->notes));
             return mesh;
         }
         const std::string why = importer.GetErrorString();

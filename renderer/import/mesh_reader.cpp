@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -18,6 +17,7 @@
 #include "renderer/import/assimp_reader.h"
 #include "renderer/import/jdn_reader.h"
 #include "renderer/import/named_images.h"
+#include "renderer/import/obj_materials.h"
 #include "renderer/import/obj_textures.h"
 #include "renderer/import/ply_reader.h"
 #include "renderer/import/source_lights.h"
@@ -89,22 +89,10 @@ struct Mention {
     std::string_view ends;
 };
 constexpr std::array kMentions = {
-    Mention{".obj", "mtllib", "\r\n"},     Mention{".gltf", "\"uri\"", "\""},
-    Mention{".jdn", "Map Path", "\r\n"},   Mention{".ac", "\ntexture", "\"\n"},
-    Mention{".ac3d", "\ntexture", "\"\n"}, Mention{".acc", "\ntexture", "\"\n"},
+    Mention{".gltf", "\"uri\"", "\""},    Mention{".jdn", "Map Path", "\r\n"},
+    Mention{".ac", "\ntexture", "\"\n"},  Mention{".ac3d", "\ntexture", "\"\n"},
+    Mention{".acc", "\ntexture", "\"\n"},
 };
-
-/// Assimp says nothing when the material files of an OBJ are missing.
-void noteMissingMaterials(std::string_view text, const std::string& path, TriangleMesh& mesh) {
-    const std::vector<std::string> names = mentionedFiles(text, "mtllib", "\r\n");
-    std::vector<std::string> missing;
-    std::ranges::copy_if(names, std::back_inserter(missing),
-                         [&](const std::string& name) { return findTexture(name, path).empty(); });
-    if (!missing.empty())
-        mesh.notes.push_back(
-            fmt::format("{} of {} material files are missing, and what they define is plain: '{}'",
-                        missing.size(), names.size(), missing.front()));
-}
 
 /// The names of files in the one at `path`.
 absl::StatusOr<std::vector<std::string>> namesIn(const std::string& path) {
@@ -114,6 +102,8 @@ absl::StatusOr<std::vector<std::string>> namesIn(const std::string& path) {
         return texturesOfPly(text, path);
     if (endsWith(path, ".mtl"))
         return texturesOfMtl(text);
+    if (endsWith(path, ".obj"))
+        return materialFilesOf(text, path);
     const auto kind = std::ranges::find_if(
         kMentions, [&](const Mention& mention) { return endsWith(path, mention.ending); });
     if (kind == kMentions.end())
@@ -177,8 +167,6 @@ absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportContr
     ASSIGN_OR_RETURN(TriangleMesh mesh, parseMesh(text, path, control, reading.memoryBytes));
     if (reading.onlyNormalsOfEdges && !statesEdges(path))
         mesh.normals = {};
-    if (endsWith(path, ".obj"))
-        noteMissingMaterials(text, path, mesh);
     RETURN_IF_ERROR(loadTextures(mesh, path, control, reading.memoryBytes));
     limitLights(mesh);
     return mesh;
