@@ -29,6 +29,8 @@
 #include "renderer/import/assimp_formats.h"
 #include "renderer/import/assimp_log.h"
 #include "renderer/import/assimp_meshes.h"
+#include "renderer/import/gltf_buffers.h"
+#include "renderer/import/gltf_chunks.h"
 #include "renderer/import/gltf_extensions.h"
 #include "renderer/import/gltf_unpacking.h"
 #include "renderer/import/obj_materials.h"
@@ -122,6 +124,16 @@ absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& f
     }
 }
 
+/// Which of glTF's two a file ought to have that has the other; nothing where it is right.
+std::optional<std::string_view> otherEndingOf(std::span<const std::byte> bytes,
+                                              const AssimpFormat& format) {
+    if (format.extension == ".gltf" && isGlb(bytes))
+        return ".glb";
+    if (format.extension == ".glb" && std::to_integer<char>(bytes.front()) == '{')
+        return ".gltf";
+    return std::nullopt;
+}
+
 }  // namespace
 
 absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const ReadingLimits& limits,
@@ -131,6 +143,12 @@ absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const Readi
     const AssimpFormat* format = findAssimpFormat(path);
     if (format == nullptr)
         return absl::InvalidArgumentError(fmt::format("{}: is of no format known here", path));
+    if (file.bytes().empty())
+        return absl::InvalidArgumentError(
+            fmt::format("{}: is empty; copy it again, or export it again", path));
+    if (const auto ending = otherEndingOf(file.bytes(), *format))
+        return absl::InvalidArgumentError(
+            fmt::format("{}: is a {} file by what is in it; rename it so", path, *ending));
     if (format->isGltf())
         if (const absl::Status readable = checkGltfExtensions(file.bytes()); !readable.ok())
             return fabric::withContext(readable, path);
@@ -139,6 +157,9 @@ absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const Readi
     control.report("reading", 1);
     if (absl::IsInvalidArgument(result.status()) && format->extension == ".stl")
         if (const auto wrong = wrongLengthOfStl(file.bytes()))  // of which Assimp knows nothing
+            return absl::InvalidArgumentError(fmt::format("{}: {}", path, *wrong));
+    if (absl::IsInvalidArgument(result.status()) && format->isGltf())
+        if (const auto wrong = shortBufferOfGltf(file.bytes(), path))  // which Assimp does not name
             return absl::InvalidArgumentError(fmt::format("{}: {}", path, *wrong));
     if (!result.ok())
         return fabric::withContext(result.status(), path);

@@ -12,6 +12,7 @@
 #include <absl/status/status.h>
 #include <fmt/format.h>
 
+#include "access/printable.h"
 #include "fabric/status.h"
 #include "renderer/import/assimp_formats.h"
 #include "renderer/import/assimp_reader.h"
@@ -135,6 +136,25 @@ absl::StatusOr<TriangleMesh> parseMesh(std::string_view text, const std::string&
     return readWithAssimp(path, ReadingLimits::forFile(text.size(), memoryBytes), control);
 }
 
+absl::StatusOr<TriangleMesh> readAsItIs(const std::string& path, const ImportControl& control,
+                                        const MeshReading& reading) {
+    if (!isMeshSource(path))
+        return absl::InvalidArgumentError(
+            fmt::format("{}: found the extension '{}', expected one of {}; convert the file", path,
+                        fs::path(path).extension().string(), meshSourceEndings()));
+    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
+    if (const auto unpacker = unpackerOf(path))
+        return absl::InvalidArgumentError(
+            fmt::format("{}: is packed; unpack it first ({})", path, *unpacker));
+    const std::string_view text = textOf(file);
+    ASSIGN_OR_RETURN(TriangleMesh mesh, parseMesh(text, path, control, reading.memoryBytes));
+    if (reading.onlyNormalsOfEdges && !statesEdges(path))
+        mesh.normals = {};
+    RETURN_IF_ERROR(loadTextures(mesh, path, control, reading.memoryBytes));
+    limitLights(mesh);
+    return mesh;
+}
+
 }  // namespace
 
 bool isPly(const std::string& path) {
@@ -155,20 +175,14 @@ std::string meshSourceEndings() {
 
 absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportControl& control,
                                       const MeshReading& reading) {
-    if (!isMeshSource(path))
-        return absl::InvalidArgumentError(
-            fmt::format("{}: found the extension '{}', expected one of {}; convert the file", path,
-                        fs::path(path).extension().string(), meshSourceEndings()));
-    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
-    if (const auto unpacker = unpackerOf(path))
-        return absl::InvalidArgumentError(
-            fmt::format("{}: is packed; unpack it first ({})", path, *unpacker));
-    const std::string_view text = textOf(file);
-    ASSIGN_OR_RETURN(TriangleMesh mesh, parseMesh(text, path, control, reading.memoryBytes));
-    if (reading.onlyNormalsOfEdges && !statesEdges(path))
-        mesh.normals = {};
-    RETURN_IF_ERROR(loadTextures(mesh, path, control, reading.memoryBytes));
-    limitLights(mesh);
+    absl::StatusOr<TriangleMesh> mesh = readAsItIs(path, control, reading);
+    // Names in files are of any bytes, and go to terminals from here.
+    if (!mesh.ok()) {
+        const auto message = mesh.status().message();
+        return absl::Status(mesh.status().code(),
+                            access::printableUtf8({message.data(), message.size()}));
+    }
+    for (std::string& note : mesh->notes) note = access::printableUtf8(note);
     return mesh;
 }
 

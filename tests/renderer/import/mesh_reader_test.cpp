@@ -314,6 +314,25 @@ TEST(MeshReader, NamesMaterialFilesThatAreMissing) {
                                                             "'m.mtl'")));
 }
 
+TEST(MeshReader, SaysNamesOfFilesInUtf8WithoutControlCharacters) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    const auto expectSaid = [&](const std::string& name, const std::string& said) {
+        test::writeFile(folder.file("m.mtl"), "newmtl tiles\nmap_Kd " + name + "\n");
+        EXPECT_THAT(readMesh(folder.file("m.obj"))->notes,
+                    testing::Contains(HasSubstr("'" + said + "' is not there")));
+    };
+    expectSaid("D\xe4 cher.png", "D\\xe4 cher.png");
+    expectSaid("D\xc3\xa4 cher.png", "D\xc3\xa4 cher.png");
+    expectSaid("\x1b[2J\xc2\x9b.png", "\\x1b[2J\\xc2\\x9b.png");
+
+    test::writeFile(folder.file("m.gltf"), R"({"buffers":[{"uri":"\u001b[2J","byteLength":4}],
+"bufferViews":[{"buffer":0,"byteLength":4}],"accessors":[{"bufferView":0,"componentType":5120}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})");
+    const absl::Status refused = readMesh(folder.file("m.gltf")).status();
+    EXPECT_THAT(std::string(refused.message()), HasSubstr("'\\x1b[2J'"));
+}
+
 /// The colour of kObj with another name for its material file, and what is said.
 fabric::Rgba colourWithLibrary(const test::TemporaryFolder& folder, const std::string& name,
                                std::vector<std::string>& notes) {
