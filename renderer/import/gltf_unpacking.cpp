@@ -21,6 +21,7 @@
 #include "fabric/status.h"
 #include "renderer/import/gltf_chunks.h"
 #include "renderer/import/gltf_json.h"
+#include "renderer/import/gltf_mending.h"
 #include "renderer/import/texture_files.h"
 #include "renderer/mesh/mapped_file.h"
 
@@ -375,8 +376,9 @@ absl::StatusOr<std::optional<std::string>> Unpacking::run(const GltfChunks& chun
     for (const char* list : {"buffers", "bufferViews", "accessors", "meshes"})
         if (!root_.contains(list) || !root_[list].is_array())
             root_[list] = Json::array();
+    const bool isMended = mendGltf(root_);
     lookForGeometry();
-    if (!isNeeded())
+    if (!isMended && !isNeeded())
         return std::nullopt;
     for (const Json& buffer : root_["buffers"])
         RETURN_IF_ERROR(readBuffer(buffer, buffers_.size()));
