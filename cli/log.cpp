@@ -23,37 +23,6 @@ namespace {
 
 LogOptions current;
 
-/// How many bytes the character at the front has; 0 where it is none.
-std::size_t characterBytes(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char first = byte(0);
-    if (first < 0x80)
-        return 1;
-    const std::size_t bytes = first >= 0xF0 && first < 0xF5   ? 4
-                              : first >= 0xE0 && first < 0xF0 ? 3
-                              : first >= 0xC2 && first < 0xE0 ? 2
-                                                              : 0;
-    if (bytes == 0 || bytes > text.size())
-        return 0;
-    for (std::size_t i = 1; i < bytes; ++i)
-        if (byte(i) < 0x80 || byte(i) > 0xBF)
-            return 0;
-    const bool isTooLong = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xF0 && byte(1) < 0x90);
-    const bool isNone = (first == 0xED && byte(1) > 0x9F) || (first == 0xF4 && byte(1) > 0x8F);
-    return isTooLong || isNone ? 0 : bytes;
-}
-
-/// What is no UTF-8, as of a peer's name, becomes question marks: JSON is UTF-8.
-std::string validUtf8(std::string_view text) {
-    std::string valid;
-    while (!text.empty()) {
-        const std::size_t bytes = characterBytes(text);
-        valid += bytes == 0 ? std::string_view("?") : text.substr(0, bytes);
-        text.remove_prefix(std::max<std::size_t>(1, bytes));
-    }
-    return valid;
-}
-
 class JsonLines final : public spdlog::formatter {
 public:
     explicit JsonLines(std::string command) : command_(std::move(command)) {}
@@ -71,7 +40,7 @@ public:
             .text("command", command_)
             .count("process", static_cast<std::uint64_t>(getpid()))
             .count("thread", entry.thread_id)
-            .text("message", validUtf8({entry.payload.data(), entry.payload.size()}));
+            .text("message", {entry.payload.data(), entry.payload.size()});
         const std::string text = json.str() + "\n";
         line.append(text.data(), text.data() + text.size());
     }

@@ -23,8 +23,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     colladaForAssimp(text);
     if (const auto obj = objForAssimp(text); obj && objForAssimp(*obj))
         std::abort();
-    for (const auto& [material, texture] : objTexturesOf(text))
-        if (withoutPercents(texture.name).size() > texture.name.size())
+    for (const auto& [name, material] : objMaterialsOf(text))
+        if (withoutPercents(material.texture.name).size() > material.texture.name.size())
             std::abort();
     const auto stl = stlForAssimp(bytes);
     if (stl && (stl->size() != size || wrongLengthOfStl(std::as_bytes(std::span(*stl)))))

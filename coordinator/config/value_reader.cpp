@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "fabric/near_name.h"
+#include "fabric/utf8.h"
 
 namespace eyrie::config {
 namespace {
@@ -22,30 +23,12 @@ std::string written(const Scalar& value) {
     }
 }
 
-/// Bytes of the UTF-8 character that `text` begins with; 0 where it begins with none.
-std::size_t characterLength(std::string_view text) {
-    const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char lead = byte(0);
-    if (lead < 0x80)
-        return 1;
-    const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-    if (lead < 0xc2 || lead > 0xf4 || text.size() < length)
-        return 0;
-    for (std::size_t i = 1; i < length; ++i)
-        if ((byte(i) & 0xc0) != 0x80)
-            return 0;
-    const bool isOverlong = (lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xf0 && byte(1) < 0x90);
-    const bool isSurrogate = lead == 0xed && byte(1) >= 0xa0;
-    const bool isBeyond = lead == 0xf4 && byte(1) >= 0x90;
-    return isOverlong || isSurrogate || isBeyond ? 0 : length;
-}
-
 /// In each form of a configuration: .eqc has no way to write quotes, JSON none for other bytes.
 bool isWritable(std::string_view text) {
     if (text.find_first_of(std::string_view("\"\n\r\0", 4)) != std::string_view::npos)
         return false;
     while (!text.empty()) {
-        const std::size_t length = characterLength(text);
+        const std::size_t length = fabric::utf8Length(text);
         if (length == 0)
             return false;
         text.remove_prefix(length);

@@ -9,6 +9,7 @@
 #include "coordinator/stream/statistics_message.h"
 #include "eyrie/v1/viewer.pb.h"
 #include "fabric/status.h"
+#include "fabric/utf8.h"
 #include "wire/camera.h"
 #include "wire/hidden_objects.h"
 #include "wire/pick.h"
@@ -99,26 +100,6 @@ absl::StatusOr<ProfileLine> lineFromMessage(const v1::ViewerProfile& message) {
                      std::move(hidden)};
     RETURN_IF_ERROR(validate(line));
     return line;
-}
-
-/// Bytes of the UTF-8 character at the start of `text`; 0 when there is none.
-std::size_t utf8Length(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char lead = byte(0);
-    const std::size_t length = lead < 0x80                    ? 1
-                               : lead >= 0xC2 && lead <= 0xDF ? 2
-                               : lead >= 0xE0 && lead <= 0xEF ? 3
-                               : lead >= 0xF0 && lead <= 0xF4 ? 4
-                                                              : 0;
-    if (length == 0 || length > text.size())
-        return 0;
-    for (std::size_t i = 1; i < length; ++i)
-        if ((byte(i) & 0xC0) != 0x80)
-            return 0;
-    // Overlong forms, surrogates and what lies above U+10FFFF are no characters either.
-    const bool isOutside = (lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xED && byte(1) > 0x9F) ||
-                           (lead == 0xF0 && byte(1) < 0x90) || (lead == 0xF4 && byte(1) > 0x8F);
-    return isOutside ? 0 : length;
 }
 
 }  // namespace
@@ -316,7 +297,7 @@ std::string profiledMessage(std::uint64_t sequence,
 std::string sanitised(std::string_view text) {
     std::string result;
     while (!text.empty()) {
-        const std::size_t length = utf8Length(text);
+        const std::size_t length = fabric::utf8Length(text);
         const bool isControl =
             length == 1 && (static_cast<unsigned char>(text[0]) < 0x20 || text[0] == 0x7F);
         const std::string_view shown = length == 0 ? "?" : isControl ? " " : text.substr(0, length);

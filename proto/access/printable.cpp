@@ -1,58 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "access/printable.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include <fmt/format.h>
+
+#include "fabric/utf8.h"
 
 namespace eyrie::access {
 namespace {
 
 constexpr std::size_t kMaxBytes = 200;
 
-bool isContinuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
-
-/// Bytes of the character that begins with `first`; 0: none does.
-std::size_t lengthOf(unsigned char first) {
-    if (first < 0x80)
-        return 1;
-    if (first >= 0xc2 && first < 0xe0)
-        return 2;
-    if (first >= 0xe0 && first < 0xf0)
-        return 3;
-    return first >= 0xf0 && first < 0xf5 ? 4 : 0;
+/// As \xNN.
+std::string escaped(std::string_view bytes) {
+    std::string result;
+    for (const char c : bytes) result += fmt::format("\\x{:02x}", static_cast<std::uint8_t>(c));
+    return result;
 }
 
-/// Whether the second byte rules out overlong forms, surrogates and what lies beyond U+10FFFF.
-bool isSecondByte(unsigned char first, unsigned char second) {
-    switch (first) {
-        case 0xe0:
-            return second >= 0xa0;
-        case 0xed:
-            return second < 0xa0;
-        case 0xf0:
-            return second >= 0x90;
-        case 0xf4:
-            return second < 0x90;
-        default:
-            return true;
-    }
+/// Those of ASCII, and U+0080 to U+009F, which some terminals act on, too.
+bool isControl(std::string_view character) {
+    const auto last = static_cast<unsigned char>(character.back());
+    return character.size() == 1 ? last < 0x20 || last == 0x7f
+                                 : character.size() == 2 && character[0] == '\xc2' && last < 0xa0;
 }
 
 }  // namespace
 
 bool isUtf8(std::string_view text) {
-    for (std::size_t at = 0; at < text.size();) {
-        const auto first = static_cast<unsigned char>(text[at]);
-        const std::size_t length = lengthOf(first);
-        if (length == 0 || at + length > text.size())
+    while (!text.empty()) {
+        const std::size_t length = fabric::utf8Length(text);
+        if (length == 0)
             return false;
-        if (length > 1 && !isSecondByte(first, static_cast<unsigned char>(text[at + 1])))
-            return false;
-        for (std::size_t k = 1; k < length; ++k)
-            if (!isContinuation(text[at + k]))
-                return false;
-        at += length;
+        text.remove_prefix(length);
     }
     return true;
 }
@@ -65,7 +48,21 @@ std::string printable(std::string_view text) {
         if (c >= 0x20 && c < 0x7f)
             result += c;
         else
-            result += fmt::format("\\x{:02x}", static_cast<std::uint8_t>(c));
+            result += escaped({&c, 1});
+    }
+    return result;
+}
+
+std::string printableUtf8(std::string_view text) {
+    std::string result;
+    while (!text.empty()) {
+        const std::size_t length = fabric::utf8Length(text);
+        const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
+        if (length == 0 || isControl(character))
+            result += escaped(character);
+        else
+            result += character;
+        text.remove_prefix(character.size());
     }
     return result;
 }

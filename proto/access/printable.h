@@ -13,4 +13,8 @@ bool isUtf8(std::string_view text);
 /// without control characters; other bytes are \xNN.
 std::string printable(std::string_view text);
 
+/// Our words with a stranger's among them, as a file's names are, fit for a terminal: UTF-8, of any
+/// length; control characters and bytes that are no UTF-8 are \xNN.
+std::string printableUtf8(std::string_view text);
+
 }  // namespace eyrie::access

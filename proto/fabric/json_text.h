@@ -6,7 +6,8 @@
 
 namespace eyrie::fabric {
 
-/// `text` as a JSON string, with its quotation marks. What is not UTF-8 is not mended.
+/// `text` as a JSON string, with its quotation marks. Bytes that are no UTF-8, as of files' names,
+/// become question marks: JSON is UTF-8.
 std::string quotedJson(std::string_view text);
 
 }  // namespace eyrie::fabric

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 
 #include "renderer/import/collada_text.h"
 #include "renderer/import/obj_text.h"
+#include "renderer/import/texture_files.h"
 #include "renderer/import/uri_name.h"
 #include "renderer/import/x3d_text.h"
 #include "renderer/mesh/mapped_file.h"
@@ -65,11 +67,37 @@ public:
     }
 };
 
+/// An OBJ and its material files, whose names, too, mean what findTexture() finds.
+class ObjFiles : public MendedFiles {
+public:
+    explicit ObjFiles(const std::string& path) : path_(path) {}
+
+    Assimp::IOStream* Open(const char* name, const char* mode) override {
+        const std::string found = name == path_ ? path_ : findTexture(asNamed(name), path_);
+        return MendedFiles::Open(found.empty() ? name : found.c_str(), mode);
+    }
+
+private:
+    /// As the OBJ names it: Assimp puts the OBJ's folder before that, and leaves blanks after it.
+    std::string asNamed(std::string_view name) const {
+        std::string folder = std::filesystem::path(path_).parent_path().string();
+        if (!folder.empty() && folder.back() != '/')
+            folder += '/';
+        if (name.starts_with(folder))
+            name.remove_prefix(folder.size());
+        return std::string(name.substr(0, name.find_last_not_of(" \t") + 1));
+    }
+
+    std::string path_;
+};
+
 }  // namespace
 
-std::unique_ptr<Assimp::IOSystem> assimpFiles(const AssimpFormat& format) {
+std::unique_ptr<Assimp::IOSystem> assimpFiles(const AssimpFormat& format, const std::string& path) {
     if (format.isGltf())
         return std::make_unique<UriFiles>();
+    if (format.extension == ".obj")
+        return std::make_unique<ObjFiles>(path);
     if (isMended(format))
         return std::make_unique<MendedFiles>();
     return std::make_unique<Assimp::DefaultIOSystem>();

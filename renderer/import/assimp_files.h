@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include <assimp/IOSystem.hpp>
 
@@ -9,8 +10,9 @@
 
 namespace eyrie::import {
 
-/// How Assimp opens files of a format: those of glTF by their URIs, and X3D, COLLADA and OBJ, those
-/// that others include too, as it understands them (x3d_text.h, collada_text.h, obj_text.h).
-std::unique_ptr<Assimp::IOSystem> assimpFiles(const AssimpFormat& format);
+/// How Assimp opens the file of a format at `path`, and those that it names: those of glTF by their
+/// URIs, material files as textures (findTexture), and X3D, COLLADA and OBJ, those that others
+/// include too, as it understands them (x3d_text.h, collada_text.h, obj_text.h).
+std::unique_ptr<Assimp::IOSystem> assimpFiles(const AssimpFormat& format, const std::string& path);
 
 }  // namespace eyrie::import

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <optional>
@@ -13,6 +14,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <absl/status/status.h>
 #include <assimp/IOSystem.hpp>
@@ -27,9 +29,11 @@
 #include "renderer/import/assimp_formats.h"
 #include "renderer/import/assimp_log.h"
 #include "renderer/import/assimp_meshes.h"
+#include "renderer/import/gltf_buffers.h"
+#include "renderer/import/gltf_chunks.h"
 #include "renderer/import/gltf_extensions.h"
 #include "renderer/import/gltf_unpacking.h"
-#include "renderer/import/obj_textures.h"
+#include "renderer/import/obj_materials.h"
 #include "renderer/import/stl_colours.h"
 #include "renderer/import/stl_length.h"
 #include "renderer/mesh/mapped_file.h"
@@ -75,7 +79,7 @@ absl::StatusOr<std::optional<std::string>> instead(const mesh::MappedFile& file,
 
 /// Null with the importer's own message where it cannot.
 absl::StatusOr<const aiScene*> parse(Assimp::Importer& importer, const std::string& path,
-                                     const AssimpFormat& format) {
+                                     const AssimpFormat& format, std::vector<std::string>& notes) {
     ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
     ASSIGN_OR_RETURN(const std::optional<std::string> text, instead(file, path, format));
     if (text)
@@ -85,7 +89,7 @@ absl::StatusOr<const aiScene*> parse(Assimp::Importer& importer, const std::stri
                                                                         : "ac");
     const aiScene* scene = importer.ReadFile(path, 0);
     if (scene != nullptr && format.extension == ".obj")
-        applyObjTextures(path, textOf(file), *scene);
+        notes = applyObjMaterials(path, textOf(file), *scene);
     return scene;
 }
 
@@ -95,12 +99,14 @@ absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& f
         Assimp::Importer importer;
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, 0);  // this file alone
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);  // none made of bones
-        importer.SetIOHandler(assimpFiles(format).release());                 // which it deletes
-        ASSIGN_OR_RETURN(const aiScene* scene, parse(importer, path, format));
+        importer.SetIOHandler(assimpFiles(format, path).release());           // which it deletes
+        std::vector<std::string> notes;
+        ASSIGN_OR_RETURN(const aiScene* scene, parse(importer, path, format, notes));
         if (scene != nullptr) {
             absl::StatusOr<TriangleMesh> mesh = gatherMeshes(*scene, format);
+            std::ranges::move(log.notes(), std::back_inserter(notes));
             if (mesh.ok())
-                for (std::string& note : log.notes()) mesh->notes.push_back(std::move(note));
+                std::ranges::move(notes, std::back_inserter(mesh->notes));
             return mesh;
         }
         const std::string why = importer.GetErrorString();
@@ -118,6 +124,16 @@ absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& f
     }
 }
 
+/// Which of glTF's two a file ought to have that has the other; nothing where it is right.
+std::optional<std::string_view> otherEndingOf(std::span<const std::byte> bytes,
+                                              const AssimpFormat& format) {
+    if (format.extension == ".gltf" && isGlb(bytes))
+        return ".glb";
+    if (format.extension == ".glb" && std::to_integer<char>(bytes.front()) == '{')
+        return ".gltf";
+    return std::nullopt;
+}
+
 }  // namespace
 
 absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const ReadingLimits& limits,
@@ -127,6 +143,12 @@ absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const Readi
     const AssimpFormat* format = findAssimpFormat(path);
     if (format == nullptr)
         return absl::InvalidArgumentError(fmt::format("{}: is of no format known here", path));
+    if (file.bytes().empty())
+        return absl::InvalidArgumentError(
+            fmt::format("{}: is empty; copy it again, or export it again", path));
+    if (const auto ending = otherEndingOf(file.bytes(), *format))
+        return absl::InvalidArgumentError(
+            fmt::format("{}: is a {} file by what is in it; rename it so", path, *ending));
     if (format->isGltf())
         if (const absl::Status readable = checkGltfExtensions(file.bytes()); !readable.ok())
             return fabric::withContext(readable, path);
@@ -135,6 +157,9 @@ absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const Readi
     control.report("reading", 1);
     if (absl::IsInvalidArgument(result.status()) && format->extension == ".stl")
         if (const auto wrong = wrongLengthOfStl(file.bytes()))  // of which Assimp knows nothing
+            return absl::InvalidArgumentError(fmt::format("{}: {}", path, *wrong));
+    if (absl::IsInvalidArgument(result.status()) && format->isGltf())
+        if (const auto wrong = shortBufferOfGltf(file.bytes(), path))  // which Assimp does not name
             return absl::InvalidArgumentError(fmt::format("{}: {}", path, *wrong));
     if (!result.ok())
         return fabric::withContext(result.status(), path);

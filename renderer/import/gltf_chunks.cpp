@@ -18,6 +18,10 @@ constexpr std::uint32_t kBinary = 0x004E4942;
 constexpr std::size_t kHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
 
+std::string_view textOf(std::span<const std::byte> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 std::uint32_t wordAt(std::span<const std::byte> bytes, std::size_t at) {
     std::uint32_t word = 0;
     std::memcpy(&word, bytes.data() + at, sizeof word);
@@ -34,11 +38,10 @@ std::span<const std::byte> chunkAt(std::span<const std::byte> bytes, std::size_t
 
 }  // namespace
 
+bool isGlb(std::span<const std::byte> bytes) { return textOf(bytes).starts_with(kMagic); }
+
 GltfChunks gltfChunksOf(std::span<const std::byte> bytes) {
-    const auto textOf = [](std::span<const std::byte> some) {
-        return std::string_view(reinterpret_cast<const char*>(some.data()), some.size());
-    };
-    if (!textOf(bytes).starts_with(kMagic) || bytes.size() < kHeaderBytes + kChunkHeaderBytes)
+    if (!isGlb(bytes) || bytes.size() < kHeaderBytes + kChunkHeaderBytes)
         return {textOf(bytes), {}};
     const auto json = chunkAt(bytes, kHeaderBytes);
     const std::size_t next = kHeaderBytes + kChunkHeaderBytes + (json.size() + 3) / 4 * 4;

@@ -17,6 +17,9 @@ struct GltfChunks {
     std::span<const std::byte> binary;  ///< the buffer that a .glb brings along, if it does
 };
 
+/// Whether a file's bytes begin as a .glb's do.
+bool isGlb(std::span<const std::byte> bytes);
+
 /// Of a file's bytes, which they lie in. As much as there is of chunks that are cut off.
 GltfChunks gltfChunksOf(std::span<const std::byte> bytes);
 

@@ -17,38 +17,29 @@
 #include <absl/strings/string_view.h>
 #include <fmt/format.h>
 #include <meshoptimizer.h>
-#include <nlohmann/json.hpp>
 
 #include "fabric/status.h"
 #include "renderer/import/gltf_chunks.h"
+#include "renderer/import/gltf_json.h"
+#include "renderer/import/gltf_mending.h"
 #include "renderer/import/texture_files.h"
 #include "renderer/mesh/mapped_file.h"
 
 namespace eyrie::import {
 namespace {
 
-using Json = nlohmann::json;
 using Bytes = std::vector<std::byte>;
 
 constexpr const char* kQuantization = "KHR_mesh_quantization";
 constexpr const char* kCompression = "EXT_meshopt_compression";
 /// Bytes of one: a group of 16 equal bytes takes two bits.
 constexpr std::uint64_t kMostUnpacked = 64;
-/// Deeper JSON is left out: no glTF is.
-constexpr int kDeepest = 64;
 constexpr int kFloat = 5126;
 constexpr std::uint64_t kLongestStride = 256;
 
 absl::Status wrong(std::string_view where, std::string_view what) {
     return absl::InvalidArgumentError(
         fmt::format("cannot be read as glTF: {} {}; export it again", where, what));
-}
-
-/// The value of `key` in an object; null where there is none.
-const Json& at(const Json& object, const char* key) {
-    static const Json kNothing;
-    const auto found = object.is_object() ? object.find(key) : object.end();
-    return object.is_object() && found != object.end() ? *found : kNothing;
 }
 
 absl::StatusOr<std::uint64_t> countAt(const Json& object, const char* key, std::string_view where,
@@ -59,11 +50,6 @@ absl::StatusOr<std::uint64_t> countAt(const Json& object, const char* key, std::
     if (!value.is_number_unsigned())
         return wrong(where, fmt::format("has no whole number '{}'", key));
     return value.get<std::uint64_t>();
-}
-
-std::string textAt(const Json& object, const char* key) {
-    const Json& value = at(object, key);
-    return value.is_string() ? value.get<std::string>() : std::string();
 }
 
 absl::StatusOr<std::span<const std::byte>> part(std::span<const std::byte> bytes,
@@ -384,15 +370,15 @@ bool Unpacking::isNeeded() const {
 }
 
 absl::StatusOr<std::optional<std::string>> Unpacking::run(const GltfChunks& chunks) {
-    const auto isNear = [](int depth, Json::parse_event_t, Json&) { return depth < kDeepest; };
-    root_ = Json::parse(chunks.json, isNear, false);
+    root_ = parsedGltf(chunks.json);
     if (!root_.is_object())
         return std::nullopt;
     for (const char* list : {"buffers", "bufferViews", "accessors", "meshes"})
         if (!root_.contains(list) || !root_[list].is_array())
             root_[list] = Json::array();
+    const bool isMended = mendGltf(root_);
     lookForGeometry();
-    if (!isNeeded())
+    if (!isMended && !isNeeded())
         return std::nullopt;
     for (const Json& buffer : root_["buffers"])
         RETURN_IF_ERROR(readBuffer(buffer, buffers_.size()));

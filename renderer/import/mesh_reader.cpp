@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -13,11 +12,13 @@
 #include <absl/status/status.h>
 #include <fmt/format.h>
 
+#include "access/printable.h"
 #include "fabric/status.h"
 #include "renderer/import/assimp_formats.h"
 #include "renderer/import/assimp_reader.h"
 #include "renderer/import/jdn_reader.h"
 #include "renderer/import/named_images.h"
+#include "renderer/import/obj_materials.h"
 #include "renderer/import/obj_textures.h"
 #include "renderer/import/ply_reader.h"
 #include "renderer/import/source_lights.h"
@@ -89,22 +90,10 @@ struct Mention {
     std::string_view ends;
 };
 constexpr std::array kMentions = {
-    Mention{".obj", "mtllib", "\r\n"},     Mention{".gltf", "\"uri\"", "\""},
-    Mention{".jdn", "Map Path", "\r\n"},   Mention{".ac", "\ntexture", "\"\n"},
-    Mention{".ac3d", "\ntexture", "\"\n"}, Mention{".acc", "\ntexture", "\"\n"},
+    Mention{".gltf", "\"uri\"", "\""},    Mention{".jdn", "Map Path", "\r\n"},
+    Mention{".ac", "\ntexture", "\"\n"},  Mention{".ac3d", "\ntexture", "\"\n"},
+    Mention{".acc", "\ntexture", "\"\n"},
 };
-
-/// Assimp says nothing when the material files of an OBJ are missing.
-void noteMissingMaterials(std::string_view text, const std::string& path, TriangleMesh& mesh) {
-    const std::vector<std::string> names = mentionedFiles(text, "mtllib", "\r\n");
-    std::vector<std::string> missing;
-    std::ranges::copy_if(names, std::back_inserter(missing),
-                         [&](const std::string& name) { return findTexture(name, path).empty(); });
-    if (!missing.empty())
-        mesh.notes.push_back(
-            fmt::format("{} of {} material files are missing, and what they define is plain: '{}'",
-                        missing.size(), names.size(), missing.front()));
-}
 
 /// The names of files in the one at `path`.
 absl::StatusOr<std::vector<std::string>> namesIn(const std::string& path) {
@@ -114,6 +103,8 @@ absl::StatusOr<std::vector<std::string>> namesIn(const std::string& path) {
         return texturesOfPly(text, path);
     if (endsWith(path, ".mtl"))
         return texturesOfMtl(text);
+    if (endsWith(path, ".obj"))
+        return materialFilesOf(text, path);
     const auto kind = std::ranges::find_if(
         kMentions, [&](const Mention& mention) { return endsWith(path, mention.ending); });
     if (kind == kMentions.end())
@@ -145,6 +136,25 @@ absl::StatusOr<TriangleMesh> parseMesh(std::string_view text, const std::string&
     return readWithAssimp(path, ReadingLimits::forFile(text.size(), memoryBytes), control);
 }
 
+absl::StatusOr<TriangleMesh> readAsItIs(const std::string& path, const ImportControl& control,
+                                        const MeshReading& reading) {
+    if (!isMeshSource(path))
+        return absl::InvalidArgumentError(
+            fmt::format("{}: found the extension '{}', expected one of {}; convert the file", path,
+                        fs::path(path).extension().string(), meshSourceEndings()));
+    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
+    if (const auto unpacker = unpackerOf(path))
+        return absl::InvalidArgumentError(
+            fmt::format("{}: is packed; unpack it first ({})", path, *unpacker));
+    const std::string_view text = textOf(file);
+    ASSIGN_OR_RETURN(TriangleMesh mesh, parseMesh(text, path, control, reading.memoryBytes));
+    if (reading.onlyNormalsOfEdges && !statesEdges(path))
+        mesh.normals = {};
+    RETURN_IF_ERROR(loadTextures(mesh, path, control, reading.memoryBytes));
+    limitLights(mesh);
+    return mesh;
+}
+
 }  // namespace
 
 bool isPly(const std::string& path) {
@@ -165,22 +175,14 @@ std::string meshSourceEndings() {
 
 absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportControl& control,
                                       const MeshReading& reading) {
-    if (!isMeshSource(path))
-        return absl::InvalidArgumentError(
-            fmt::format("{}: found the extension '{}', expected one of {}; convert the file", path,
-                        fs::path(path).extension().string(), meshSourceEndings()));
-    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
-    if (const auto unpacker = unpackerOf(path))
-        return absl::InvalidArgumentError(
-            fmt::format("{}: is packed; unpack it first ({})", path, *unpacker));
-    const std::string_view text = textOf(file);
-    ASSIGN_OR_RETURN(TriangleMesh mesh, parseMesh(text, path, control, reading.memoryBytes));
-    if (reading.onlyNormalsOfEdges && !statesEdges(path))
-        mesh.normals = {};
-    if (endsWith(path, ".obj"))
-        noteMissingMaterials(text, path, mesh);
-    RETURN_IF_ERROR(loadTextures(mesh, path, control, reading.memoryBytes));
-    limitLights(mesh);
+    absl::StatusOr<TriangleMesh> mesh = readAsItIs(path, control, reading);
+    // Names in files are of any bytes, and go to terminals from here.
+    if (!mesh.ok()) {
+        const auto message = mesh.status().message();
+        return absl::Status(mesh.status().code(),
+                            access::printableUtf8({message.data(), message.size()}));
+    }
+    for (std::string& note : mesh->notes) note = access::printableUtf8(note);
     return mesh;
 }
 

@@ -6,20 +6,12 @@
 #include <cctype>
 #include <charconv>
 #include <cstddef>
-#include <span>
 #include <system_error>
-
-#include <absl/status/statusor.h>
-#include <assimp/material.h>
-#include <assimp/scene.h>
-
-#include "renderer/import/texture_files.h"
-#include "renderer/mesh/mapped_file.h"
 
 namespace eyrie::import {
 namespace {
 
-constexpr std::string_view kBlank = " \t\r";
+constexpr std::string_view kBlank = " \t";
 
 std::string_view trimmed(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(kBlank), text.size()));
@@ -35,7 +27,7 @@ std::string_view takeWord(std::string_view& text) {
 
 /// Takes a line from the front of `text`.
 std::string_view takeLine(std::string_view& text) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     return trimmed(line);
@@ -74,20 +66,6 @@ constexpr std::array kOptions = {
     Option{"-texres", 1}, Option{"-type", 1},
 };
 
-/// Gives `material` what its file says where Assimp has not got it. Assimp's shift comes before
-/// its scale.
-void apply(const ObjTexture& texture, aiMaterial& material) {
-    const aiString name(texture.name);
-    material.AddProperty(&name, AI_MATKEY_TEXTURE_DIFFUSE(0));
-    if (texture.scale == glm::vec2(1) && texture.offset == glm::vec2(0))
-        return;
-    aiUVTransform transform;
-    transform.mScaling = {texture.scale.x, texture.scale.y};
-    transform.mTranslation = {texture.scale.x != 0 ? texture.offset.x / texture.scale.x : 0,
-                              texture.scale.y != 0 ? texture.offset.y / texture.scale.y : 0};
-    material.AddProperty(&transform, 1, AI_MATKEY_UVTRANSFORM_DIFFUSE(0));
-}
-
 }  // namespace
 
 ObjTexture parseMapKd(std::string_view arguments) {
@@ -123,43 +101,39 @@ std::vector<std::string> texturesOfMtl(std::string_view mtl) {
     return names;
 }
 
-std::map<std::string, ObjTexture> objTexturesOf(std::string_view mtl) {
-    std::map<std::string, ObjTexture> textures;
-    std::string material;
+std::vector<std::string> librariesOfObj(std::string_view obj) {
+    constexpr std::string_view kLibrary = "mtllib";
+    std::vector<std::string> names;
+    for (std::size_t at = obj.find(kLibrary); at != std::string_view::npos;
+         at = obj.find(kLibrary, at + kLibrary.size())) {
+        const std::size_t line = obj.find_last_of("\r\n", at) + 1;
+        std::string_view rest = obj.substr(at + kLibrary.size());
+        if (obj.substr(line, at - line).find('#') == std::string_view::npos)  // no comment
+            names.emplace_back(takeLine(rest));
+    }
+    std::ranges::sort(names);
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+}
+
+std::map<std::string, ObjMaterial> objMaterialsOf(std::string_view mtl) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (mtl.starts_with(kByteOrderMark))
+        mtl.remove_prefix(kByteOrderMark.size());
+    std::map<std::string, ObjMaterial> materials;
+    ObjMaterial before;  // what stands before the first is no material's
+    ObjMaterial* material = &before;
     while (!mtl.empty()) {
         std::string_view line = takeLine(mtl);
         const std::string_view keyword = takeWord(line);
         if (keyword == "newmtl")
-            material = line;
-        else if (isMapKd(keyword) && line.starts_with('-'))
-            textures.insert_or_assign(material, parseMapKd(line));
+            material = &materials[std::string(line)];
+        else if (keyword == "Kd" || keyword == "kd")
+            material->hasColour = true;
         else if (isMapKd(keyword))
-            textures.erase(material);
+            material->texture = parseMapKd(line);
     }
-    return textures;
-}
-
-void applyObjTextures(const std::string& path, std::string_view obj, const aiScene& scene) {
-    constexpr std::string_view kLibrary = "mtllib";
-    std::map<std::string, ObjTexture> textures;
-    for (std::size_t at = obj.find(kLibrary); at != std::string_view::npos;
-         at = obj.find(kLibrary, at + 1)) {
-        std::string_view rest = obj.substr(at + kLibrary.size());
-        const std::string found = findTexture(std::string(takeLine(rest)), path);
-        const absl::StatusOr<mesh::MappedFile> file = mesh::MappedFile::open(found);
-        if (found.empty() || !file.ok())
-            continue;
-        const auto bytes = file->bytes();
-        textures.merge(objTexturesOf({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
-    }
-    for (aiMaterial* material : std::span(scene.mMaterials, scene.mNumMaterials)) {
-        aiString name;
-        const auto texture = material->Get(AI_MATKEY_NAME, name) == AI_SUCCESS
-                                 ? textures.find(name.C_Str())
-                                 : textures.end();
-        if (texture != textures.end() && !texture->second.name.empty())
-            apply(texture->second, *material);
-    }
+    return materials;
 }
 
 }  // namespace eyrie::import

@@ -8,8 +8,6 @@
 
 #include <glm/vec2.hpp>
 
-struct aiScene;
-
 namespace eyrie::import {
 
 /// What `map_Kd`, in whatever case, says of a material: name, and where a place of the source lies
@@ -29,12 +27,16 @@ ObjTexture parseMapKd(std::string_view arguments);
 /// The names of all textures of an .mtl file, sorted.
 std::vector<std::string> texturesOfMtl(std::string_view mtl);
 
-/// The textures with options of an .mtl file, by the names of their materials; the last of each.
-std::map<std::string, ObjTexture> objTexturesOf(std::string_view mtl);
+/// The names of all material files of an OBJ, sorted, each once.
+std::vector<std::string> librariesOfObj(std::string_view obj);
 
-/// Gives the materials of the OBJ at `path`, which Assimp has read as `scene`, what their textures
-/// have options for: Assimp passes -s and -o over, and takes the name for one of three numbers
-/// where they have fewer. Material files that are missing are for others to tell of.
-void applyObjTextures(const std::string& path, std::string_view obj, const aiScene& scene);
+/// What an .mtl file says of a material.
+struct ObjMaterial {
+    bool hasColour = false;  ///< Kd
+    ObjTexture texture;      ///< the last; without a name where it has none
+};
+
+/// The materials of an .mtl file by their names.
+std::map<std::string, ObjMaterial> objMaterialsOf(std::string_view mtl);
 
 }  // namespace eyrie::import

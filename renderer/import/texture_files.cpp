@@ -61,6 +61,47 @@ int sizeOf(std::span<const std::byte> bytes) {
     return static_cast<int>(std::min<std::size_t>(bytes.size(), 1U << 30));
 }
 
+/// Hands out an image's bytes, and knows whether more were asked for than there are: of TGA, BMP
+/// and others stb_image takes whatever it has for what lies behind their end.
+class CountedBytes {
+public:
+    explicit CountedBytes(std::span<const std::byte> bytes) : rest_(bytes) {}
+
+    stbi_uc* decode(int& width, int& height) {
+        const stbi_io_callbacks callbacks = {read, skip, isAtEnd};
+        int channels = 0;
+        return stbi_load_from_callbacks(&callbacks, this, &width, &height, &channels, 4);
+    }
+
+    bool isOverrun() const { return isOverrun_; }
+
+private:
+    static int read(void* bytes, char* to, int size) {
+        return static_cast<CountedBytes*>(bytes)->take(to, static_cast<std::size_t>(size));
+    }
+    static void skip(void* bytes, int size) {
+        auto& rest = static_cast<CountedBytes*>(bytes)->rest_;
+        rest = rest.subspan(std::min(static_cast<std::size_t>(size), rest.size()));
+    }
+    static int isAtEnd(void* bytes) { return static_cast<CountedBytes*>(bytes)->rest_.empty(); }
+
+    /// stb_image reads ahead into a buffer of its own, the first time before anything else, and may
+    /// get less then; it does so again when it needs more than that, and then there is to be some.
+    int take(char* to, std::size_t size) {
+        if (ahead_ == nullptr)
+            ahead_ = to;
+        const std::size_t count = std::min(size, rest_.size());
+        isOverrun_ = isOverrun_ || (to == ahead_ ? count == 0 : count < size);
+        std::memcpy(to, rest_.data(), count);
+        rest_ = rest_.subspan(count);
+        return static_cast<int>(count);
+    }
+
+    std::span<const std::byte> rest_;
+    const char* ahead_ = nullptr;
+    bool isOverrun_ = false;
+};
+
 /// Its sides, as its header has them.
 absl::StatusOr<mesh::ImageShape> shapeOf(std::span<const std::byte> bytes) {
     if (looksLikeSgi(bytes))
@@ -83,12 +124,14 @@ absl::StatusOr<std::vector<fabric::Rgba>> decode(std::span<const std::byte> byte
     if (looksLikeSgi(bytes))
         return decodeSgi(bytes, shape);
     ASSIGN_OR_RETURN(shape, shapeOf(bytes));
-    int width = 0, height = 0, channels = 0;
-    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> texels(
-        stbi_load_from_memory(dataOf(bytes), sizeOf(bytes), &width, &height, &channels, 4),
-        &stbi_image_free);
+    int width = 0, height = 0;
+    CountedBytes counted(bytes);
+    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> texels(counted.decode(width, height),
+                                                                      &stbi_image_free);
     if (!texels)
         return absl::InvalidArgumentError(fmt::format("is damaged ({})", stbi_failure_reason()));
+    if (counted.isOverrun())
+        return absl::InvalidArgumentError("is damaged (it ends too early)");
     shape.width = static_cast<std::uint32_t>(width);
     shape.height = static_cast<std::uint32_t>(height);
     std::vector<fabric::Rgba> result(std::size_t{shape.width} * shape.height);

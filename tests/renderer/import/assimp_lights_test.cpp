@@ -73,6 +73,31 @@ TEST(AssimpReader, HasLightsWhereTheirNodesPutThem) {
     EXPECT_EQ(distant->lights.distant[0].colour, fabric::Vec3(1));
 }
 
+/// Of the last two nodes one is called as a light is, and one is not in the scene.
+TEST(AssimpReader, HasALightAtEachNodeOfAGltfThatUsesIt) {
+    const auto node = [](int light, const std::string& place, const std::string& name) {
+        return R"(,{"extensions":{"KHR_lights_punctual":{"light":)" + std::to_string(light) +
+               R"(}},"name":")" + name + R"(","translation":)" + place + "}";
+    };
+    std::string lit = litGltf(R"({"type":"point","intensity":4},{"type":"point"})", "");
+    const std::string last = R"("translation":[0.25,0,0]})";
+    lit.insert(lit.find(last) + last.size(),
+               node(0, "[20,0,0]", "Light") + node(0, "[30,0,0]", "Light") +
+                   node(1, "[40,0,0]", "Lamp") + R"(,{"name":"Lamp","translation":[50,0,0]})" +
+                   node(1, "[60,0,0]", "Light"));
+    const std::string children = R"("children":[1,2])";
+    lit.replace(lit.find(children), children.size(), R"("children":[1,2,6,3,4,5])");
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("lit.gltf"), lit);
+    const auto mesh = readWithAssimp(folder.file("lit.gltf"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_EQ(mesh->triangles.size(), 2U);
+    std::vector<double> places;
+    for (const fabric::PointLight& light : mesh->lights.points)
+        places.push_back(light.positionMetres.x - 1e6);
+    EXPECT_THAT(places, testing::UnorderedElementsAre(0, 20, 30, 40));
+}
+
 TEST(AssimpReader, HasSpotsWithTheConesOfAGltf) {
     const auto spot = readLitGltf(
         R"({"type":"spot","intensity":4,"spot":{"innerConeAngle":0.25,"outerConeAngle":0.5}})",

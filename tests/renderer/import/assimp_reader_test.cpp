@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "renderer/import/gltf_chunks.h"
 #include "renderer/import/obj_text.h"
 #include "tests/renderer/import/assimp_files.h"
 #include "tests/renderer/import/mesh_text.h"
@@ -311,6 +312,31 @@ TEST(AssimpReader, TakesColoursOfAnStlAsMaterialiseMeansThem) {
         EXPECT_EQ(mesh->colours[mesh->triangles[0][0]], (fabric::Rgba{255, 0, 0, 255}));
         EXPECT_EQ(mesh->colours[mesh->triangles[1][0]], (fabric::Rgba{0, 255, 0, 255}));
     }
+}
+
+TEST(AssimpReader, SaysWhatToDoWithFilesThatAreEmptyMisnamedOrLackBytesOfABuffer) {
+    const test::TemporaryFolder folder;
+    const auto expectRefused = [&](const std::string& name, const std::string& text,
+                                   const std::string& why) {
+        test::writeFile(folder.file(name), text);
+        const absl::Status refused = readWithAssimp(folder.file(name)).status();
+        EXPECT_TRUE(absl::IsInvalidArgument(refused)) << refused;
+        EXPECT_EQ(std::string(refused.message()), folder.file(name) + ": " + why);
+    };
+    for (const char* name : {"m.ac", "m.gltf", "m.obj", "m.stl"})
+        expectRefused(name, "", "is empty; copy it again, or export it again");
+    const auto glb = glbOf(test::kGltf, {});
+    ASSERT_TRUE(glb.ok()) << glb.status();
+    expectRefused("m.gltf", *glb, "is a .glb file by what is in it; rename it so");
+    expectRefused("m.glb", test::kGltf, "is a .gltf file by what is in it; rename it so");
+
+    std::string outside = test::kGltf;
+    const std::size_t data = outside.find("data:");
+    outside.replace(data, outside.find('"', data) - data, "m%20a.bin");
+    test::writeFile(folder.file("m a.bin"), std::string(35, '\0'));
+    expectRefused("m.gltf", outside,
+                  "found 35 bytes in its buffer 'm%20a.bin', expected 36; copy that file again, or "
+                  "export the mesh again");
 }
 
 TEST(AssimpReader, TellsMissingFilesFromBadOnes) {

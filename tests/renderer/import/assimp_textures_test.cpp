@@ -150,6 +150,34 @@ TEST(AssimpReader, PutsTexturesWhereAGltfsTransformsDo) {
                     {1.8320508F, -0.8F}, {1.6F, 2.7980762F});
 }
 
+/// The second set begins a float later: its middle place is at v = 0, the first's at v = 1.
+TEST(AssimpReader, TakesTheTextureCoordinatesThatAGltfsTransformNames) {
+    const auto placeWith = [](const std::string& texture) {
+        const test::TemporaryFolder folder;
+        std::string text = texturedGltf(R"("baseColorTexture":{"index":0})",
+                                        R"("baseColorTexture":{"index":0)" + texture + "}");
+        text.insert(1, R"("extensionsUsed":["KHR_texture_transform"],)");
+        const std::string_view set = R"("TEXCOORD_0":1)";
+        text.replace(text.find(set), set.size(), R"("TEXCOORD_0":1,"TEXCOORD_1":2)");
+        const std::string_view places = R"("count":3,"type":"VEC2"})";
+        text.insert(text.find(places) + places.size(),
+                    R"(,{"bufferView":0,"byteOffset":4,"componentType":5126,"count":3,)"
+                    R"("type":"VEC2"})");
+        test::writeFile(folder.file("m.gltf"), text);
+        const auto mesh = readWithAssimp(folder.file("m.gltf"));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        return mesh.ok() ? mesh->textureCoordinates[mesh->triangles[0][1]] : glm::vec2(-1);
+    };
+    EXPECT_EQ(placeWith(""), glm::vec2(0, 1));
+    const auto transform = [](const std::string& inner) {
+        return R"(,"extensions":{"KHR_texture_transform":{)" + inner + "}}";
+    };
+    EXPECT_EQ(placeWith(transform("")), glm::vec2(0, 1));
+    EXPECT_EQ(placeWith(transform(R"("texCoord":1)")), glm::vec2(1, 0));
+    EXPECT_EQ(placeWith(R"(,"texCoord":1)" + transform("")), glm::vec2(1, 0));
+    EXPECT_EQ(placeWith(R"(,"texCoord":1)" + transform(R"("texCoord":0)")), glm::vec2(0, 1));
+}
+
 TEST(AssimpReader, SaysThatTexturesAreNotMirrored) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("m.gltf"), texturedGltf(R"("wrapT":10497)", R"("wrapT":33648)"));

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -152,7 +153,7 @@ TEST(MeshReader, TakesImagesOfWhichNothingShowsForOpaque) {
     ASSERT_EQ(mesh->images.size(), 1U);
     EXPECT_FALSE(mesh->images[0].shape.hasAlpha());
     EXPECT_EQ(mesh->materials[mesh->materialOf[0]], (mesh::Material{.image = 0}));
-    EXPECT_THAT(mesh->notes, testing::ElementsAre(HasSubstr("1 of 1 textures have no opacity")));
+    EXPECT_THAT(mesh->notes, testing::Contains(HasSubstr("1 of 1 textures have no opacity")));
 }
 
 constexpr const char* kTexturedPly =
@@ -224,9 +225,50 @@ TEST(MeshReader, RefusesTexturesOfAbsurdSize) {
     test::writeFile(folder.file("a.tga"), large);
     const auto mesh = readMesh(folder.file("m.obj"));
     ASSERT_TRUE(mesh.ok()) << mesh.status();
-    EXPECT_THAT(mesh->notes, testing::ElementsAre(HasSubstr("'a.tga' has 32513 x 32513 texels, "
-                                                            "more than 8192 a side")));
+    EXPECT_THAT(mesh->notes, testing::Contains(HasSubstr("'a.tga' has 32513 x 32513 texels, "
+                                                         "more than 8192 a side")));
     EXPECT_EQ(mesh->colours[0], (fabric::Rgba{0, 0, 255, 255}));
+}
+
+/// A BMP of 64 x 64 grey texels of three bytes.
+std::string bmpOf64() {
+    std::string file(54, '\0');
+    file[0] = 'B', file[1] = 'M', file[10] = 54, file[14] = 40;
+    file[18] = file[22] = 64, file[26] = 1, file[28] = 24;
+    return file + std::string(std::size_t{64} * 64 * 3, '\x40');
+}
+
+/// Longer than what stb_image reads ahead and hardly longer, and in runs.
+TEST(MeshReader, CallsImagesThatAreCutOffDamaged) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    std::string runs = test::tgaOf(64, 64, {});
+    runs[2] = 10;
+    for (int i = 0; i < 32; ++i)
+        runs +=
+            "\xFF"
+            "bgra";
+    const std::string coded = "newmtl tiles\nmap_Kd a.";
+    const auto notesOf = [&](const std::string& ending, const std::string& image) {
+        test::writeFile(folder.file("m.mtl"), coded + ending);
+        test::writeFile(folder.file("a." + ending), image);
+        return readMesh(folder.file("m.obj"))->notes;
+    };
+    for (const auto& [ending, image] :
+         {std::pair("tga", test::tgaOf(64, 64, std::vector<fabric::Rgba>(64 * 64))),
+          {"tga", test::tgaOf(6, 5, std::vector<fabric::Rgba>(6 * 5))},
+          {"tga", runs},
+          {"bmp", bmpOf64()}}) {
+        EXPECT_THAT(notesOf(ending, image),
+                    testing::Not(testing::Contains(HasSubstr("a." + std::string(ending)))));
+        EXPECT_THAT(notesOf(ending, image + "more"),
+                    testing::Not(testing::Contains(HasSubstr("damaged"))));
+        for (const std::size_t length : {image.size() - 1, image.size() - 100, image.size() / 2})
+            EXPECT_THAT(notesOf(ending, image.substr(0, length)),
+                        testing::Contains(HasSubstr(
+                            fmt::format("'a.{}' is damaged (it ends too early)", ending))))
+                << length;
+    }
 }
 
 /// An SGI image of 3 x 2 texels with alpha, rows from the bottom, one channel after the other.
@@ -270,6 +312,93 @@ TEST(MeshReader, NamesMaterialFilesThatAreMissing) {
     EXPECT_THAT(mesh->notes, testing::ElementsAre(HasSubstr("1 of 1 material files are missing, "
                                                             "and what they define is plain: "
                                                             "'m.mtl'")));
+}
+
+TEST(MeshReader, SaysNamesOfFilesInUtf8WithoutControlCharacters) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    const auto expectSaid = [&](const std::string& name, const std::string& said) {
+        test::writeFile(folder.file("m.mtl"), "newmtl tiles\nmap_Kd " + name + "\n");
+        EXPECT_THAT(readMesh(folder.file("m.obj"))->notes,
+                    testing::Contains(HasSubstr("'" + said + "' is not there")));
+    };
+    expectSaid("D\xe4 cher.png", "D\\xe4 cher.png");
+    expectSaid("D\xc3\xa4 cher.png", "D\xc3\xa4 cher.png");
+    expectSaid("\x1b[2J\xc2\x9b.png", "\\x1b[2J\\xc2\\x9b.png");
+
+    test::writeFile(folder.file("m.gltf"), R"({"buffers":[{"uri":"\u001b[2J","byteLength":4}],
+"bufferViews":[{"buffer":0,"byteLength":4}],"accessors":[{"bufferView":0,"componentType":5120}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})");
+    const absl::Status refused = readMesh(folder.file("m.gltf")).status();
+    EXPECT_THAT(std::string(refused.message()), HasSubstr("'\\x1b[2J'"));
+}
+
+/// The colour of kObj with another name for its material file, and what is said.
+fabric::Rgba colourWithLibrary(const test::TemporaryFolder& folder, const std::string& name,
+                               std::vector<std::string>& notes) {
+    std::string obj = test::kObj;
+    test::writeFile(folder.file("m.obj"), obj.replace(obj.find("m.mtl"), 5, name));
+    const auto mesh = readMesh(folder.file("m.obj"));
+    EXPECT_TRUE(mesh.ok()) << mesh.status();
+    notes = mesh.ok() ? mesh->notes : notes;
+    return mesh.ok() ? mesh->colours.at(0) : fabric::Rgba{};
+}
+
+TEST(MeshReader, FindsMaterialFilesAsItFindsTextures) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("a model.mtl"), test::kMtl);
+    for (const char* name : {"a model.mtl", "A Model.MTL", "a%20model.mtl", "a model.mtl ",
+                             "maps\\a model.mtl", "C:\\maps\\a model.mtl"}) {
+        std::vector<std::string> notes;
+        EXPECT_EQ(colourWithLibrary(folder, name, notes), (fabric::Rgba{255, 0, 0, 255})) << name;
+        EXPECT_THAT(notes, testing::IsEmpty()) << name;
+    }
+}
+
+TEST(MeshReader, TakesTheMaterialFileOfAnObjsOwnNameForOneThatIsMissingAndSaysSo) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.mtl"), test::kMtl);
+    std::vector<std::string> notes;
+    EXPECT_EQ(colourWithLibrary(folder, "lost.mtl", notes), (fabric::Rgba{255, 0, 0, 255}));
+    EXPECT_THAT(notes, testing::ElementsAre("1 of 1 material files are missing, and 'm.mtl' is "
+                                            "read in their place: 'lost.mtl'"));
+    const std::vector<std::string> paths = {folder.file("m.obj")};
+    const std::uint64_t red = *meshSourceHash(paths);
+    test::writeFile(folder.file("m.mtl"), "newmtl red\nKd 0 1 0\n");
+    EXPECT_NE(red, *meshSourceHash(paths));
+}
+
+TEST(MeshReader, ShowsTexturesOfAnObjInFullWhereNoColourIsGiven) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    test::writeFile(folder.file("a.tga"), test::tgaOf(1, 1, {{9, 8, 7, 255}}));
+    for (const auto& [kd, level] : {std::pair("", 255), {"Kd 0.2 0.2 0.2\n", 51}}) {
+        test::writeFile(folder.file("m.mtl"), std::string("newmtl tiles\r\nmap_Kd a.tga\r\n") + kd);
+        const auto mesh = readMesh(folder.file("m.obj"));
+        ASSERT_TRUE(mesh.ok()) << mesh.status();
+        EXPECT_EQ(mesh->images.size(), 1U);
+        const auto shown = static_cast<std::uint8_t>(level);
+        EXPECT_EQ(mesh->colours[0], (fabric::Rgba{shown, shown, shown, 255}));
+    }
+}
+
+TEST(MeshReader, CountsMaterialsThatNoFileDefines) {
+    const test::TemporaryFolder folder;
+    const auto notesOf = [&](const std::string& mtl) {
+        test::writeFile(folder.file("m.obj"),
+                        "# mtllib lost.mtl\nmtllib m.mtl\nv 0 0 0\nv 1 0 0\n"
+                        "v 0 1 0\nf 1 2 3\nusemtl a\nf 1 2 3\n"
+                        "usemtl my wall \nf 1 2 3\n");
+        test::writeFile(folder.file("m.mtl"), mtl);
+        return readMesh(folder.file("m.obj"))->notes;
+    };
+    EXPECT_THAT(notesOf("newmtl a\n"),
+                testing::ElementsAre("1 materials are used that no material file defines, and what "
+                                     "has them is plain: 'my wall'"));
+    for (const char* mtl :
+         {"newmtl a\nKd 1 0 0\nnewmtl my wall\n", "newmtl a\rKd 1 0 0\rnewmtl my wall\r",
+          "\xef\xbb\xbfnewmtl a\r\nKd 1 0 0\r\nnewmtl\tmy wall \r\n"})
+        EXPECT_THAT(notesOf(mtl), testing::IsEmpty()) << mtl;
 }
 
 TEST(MeshSourceHash, IsThatOfALoneFileAndCountsItsCompany) {

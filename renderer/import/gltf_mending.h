@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "renderer/import/gltf_json.h"
+
+namespace eyrie::import {
+
+/// Says in a glTF's JSON what Assimp 5.2 takes for what is meant, and returns whether anything had
+/// to change. It has each light once, where the last of its nodes is or the first of that node's
+/// name, so each node of the scene gets a light and a name of its own; and it passes over another
+/// set of texture coordinates that KHR_texture_transform may give a colour's texture.
+bool mendGltf(Json& root);
+
+}  // namespace eyrie::import
