@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is read of models before Assimp reads them, or beside it, of any bytes: X3D, COLLADA, STL,
-// OBJ and its material files. What one has mended needs no mending.
+// What is read of models before Assimp reads them, or beside it, of any bytes: X3D, COLLADA, DXF,
+// STL, OBJ and its material files. What one has mended needs no mending.
 #include <cstdint>
 #include <cstdlib>
 #include <span>
@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "renderer/import/collada_text.h"
+#include "renderer/import/dxf_text.h"
 #include "renderer/import/obj_text.h"
 #include "renderer/import/obj_textures.h"
 #include "renderer/import/stl_colours.h"
@@ -21,6 +22,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto bytes = std::as_bytes(std::span(data, size));
     x3dForAssimp(text);
     colladaForAssimp(text);
+    dxfForAssimp(text);
+    dxfCaveats(text);
     if (const auto obj = objForAssimp(text); obj && objForAssimp(*obj))
         std::abort();
     for (const auto& [material, texture] : objTexturesOf(text))

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/import/dxf_text.h"
 #include "renderer/import/gltf_extensions.h"
 
 namespace eyrie::import {
@@ -81,6 +82,8 @@ std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpF
         return x3dCaveats(text);
     if (format.extension == ".dae")
         return colladaCaveats(text);
+    if (format.extension == ".dxf")
+        return dxfCaveats(text);
     if (format.extension == ".stl")
         return stlCaveats(text);
     if (format.extension == ".obj")

@@ -4,38 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <utility>
+
+#include "renderer/import/mended_text.h"
 
 namespace eyrie::import {
 namespace {
 
 constexpr std::string_view kBlank = " \t";
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-
-/// The text with replacements, which come from front to back.
-class Mended {
-public:
-    explicit Mended(std::string_view source) : source_(source) {}
-
-    void replace(std::size_t at, std::size_t length, std::string_view by) {
-        text_.append(source_.substr(copied_, at - copied_)).append(by);
-        copied_ = at + length;
-        isAny_ = true;
-    }
-
-    std::optional<std::string> finish() {
-        if (!isAny_)
-            return std::nullopt;
-        text_.append(source_.substr(copied_));
-        return std::move(text_);
-    }
-
-private:
-    std::string_view source_;
-    std::string text_;
-    std::size_t copied_ = 0;  ///< of the source
-    bool isAny_ = false;
-};
 
 /// Whether a line without blanks at its begin has numbers after its keyword, not names, which may
 /// have any marks.
@@ -49,7 +25,7 @@ bool hasNumbers(std::string_view line) {
 bool hasKeyword(std::string_view line) { return !line.empty() && line[0] >= 'a' && line[0] <= 'z'; }
 
 /// Of the line that begins at `first`.
-void mendNumbers(std::string_view line, std::size_t first, Mended& mended) {
+void mendNumbers(std::string_view line, std::size_t first, MendedText& mended) {
     const std::size_t comment = std::min(line.find('#'), line.size());
     const std::string_view numbers = line.substr(0, comment);
     for (std::size_t at = numbers.find('.'); at != std::string_view::npos;
@@ -60,7 +36,7 @@ void mendNumbers(std::string_view line, std::size_t first, Mended& mended) {
         mended.replace(first + comment, line.size() - comment, "");
 }
 
-void mendLine(std::string_view line, std::size_t first, Mended& mended) {
+void mendLine(std::string_view line, std::size_t first, MendedText& mended) {
     const std::size_t indent = std::min(line.find_first_not_of(kBlank), line.size());
     line.remove_prefix(indent);
     if (indent > 0 && hasKeyword(line))
@@ -72,7 +48,7 @@ void mendLine(std::string_view line, std::size_t first, Mended& mended) {
 }  // namespace
 
 std::optional<std::string> objForAssimp(std::string_view obj) {
-    Mended mended(obj);
+    MendedText mended(obj);
     std::size_t at = 0;
     while (obj.substr(at).starts_with(kByteOrderMark)) {
         mended.replace(at, kByteOrderMark.size(), "");

@@ -212,7 +212,7 @@ TEST(AssimpReader, SaysThatBlocksOfDxfAreNotTurned) {
     };
     EXPECT_THAT(notesOf(dxfOfABlock(0, "0\nEOF\n")), IsEmpty());
     EXPECT_THAT(notesOf(dxfOfABlock(90, "0\nEOF\n")),
-                ElementsAre(HasSubstr("BLOCK rotation not currently implemented")));
+                ElementsAre(HasSubstr("1 blocks are not put as the file has them")));
     EXPECT_THAT(notesOf(dxfOfABlock(0, "")), ElementsAre(HasSubstr("did not encounter DXF EOF")));
 }
 

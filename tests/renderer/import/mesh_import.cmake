@@ -16,6 +16,7 @@ eyrie_test(assimp_formats_test LABEL unit LINK eyrie::mesh_import assimp::assimp
 eyrie_test(assimp_reader_test LABEL unit
            SOURCES assimp_lights_test.cpp assimp_reader_test.cpp assimp_textures_test.cpp
            LINK eyrie::mesh_import assimp::assimp)
+eyrie_test(dxf_text_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(gltf_extensions_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(jdn_reader_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(source_lights_test LABEL unit LINK eyrie::mesh_import)
