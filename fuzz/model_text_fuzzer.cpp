@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is read of models before Assimp reads them, or beside it, of any bytes: X3D, COLLADA, DXF,
-// STL, OBJ and its material files. What one has mended needs no mending.
+// What is read of models before Assimp reads them, or beside it, of any bytes: X3D, COLLADA, AMF,
+// DXF, STL, OBJ and its material files. What one has mended needs no mending.
 #include <cstdint>
 #include <cstdlib>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "renderer/import/amf_text.h"
 #include "renderer/import/collada_text.h"
 #include "renderer/import/dxf_text.h"
 #include "renderer/import/obj_text.h"
@@ -22,6 +23,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto bytes = std::as_bytes(std::span(data, size));
     x3dForAssimp(text);
     colladaForAssimp(text);
+    if (const auto amf = amfForAssimp(text); amf && amf->size() >= size)
+        std::abort();
+    amfCaveats(text);
     dxfForAssimp(text);
     dxfCaveats(text);
     if (const auto obj = objForAssimp(text); obj && objForAssimp(*obj))

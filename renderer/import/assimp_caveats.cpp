@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/import/amf_text.h"
 #include "renderer/import/dxf_text.h"
 #include "renderer/import/gltf_extensions.h"
 
@@ -82,6 +83,8 @@ std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpF
         return x3dCaveats(text);
     if (format.extension == ".dae")
         return colladaCaveats(text);
+    if (format.extension == ".amf")
+        return amfCaveats(text);
     if (format.extension == ".dxf")
         return dxfCaveats(text);
     if (format.extension == ".stl")

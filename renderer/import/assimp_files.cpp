@@ -12,6 +12,7 @@
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
 
+#include "renderer/import/amf_text.h"
 #include "renderer/import/collada_text.h"
 #include "renderer/import/dxf_text.h"
 #include "renderer/import/obj_text.h"
@@ -23,12 +24,14 @@ namespace eyrie::import {
 namespace {
 
 bool isMended(const AssimpFormat& format) {
-    constexpr std::array kExtensions = {".x3d", ".dae", ".dxf", ".obj"};
+    constexpr std::array kExtensions = {".amf", ".x3d", ".dae", ".dxf", ".obj"};
     return std::ranges::count(kExtensions, format.extension) > 0;
 }
 
 /// Nothing where it may be read as it is.
 std::optional<std::string> mended(std::string_view source, const AssimpFormat& format) {
+    if (format.extension == ".amf")
+        return amfForAssimp(source);
     if (format.extension == ".obj")
         return objForAssimp(source);
     if (format.extension == ".dxf")

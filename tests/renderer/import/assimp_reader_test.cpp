@@ -216,6 +216,37 @@ TEST(AssimpReader, SaysThatBlocksOfDxfAreNotTurned) {
     EXPECT_THAT(notesOf(dxfOfABlock(0, "")), ElementsAre(HasSubstr("did not encounter DXF EOF")));
 }
 
+/// A triangle that is put at 10, 5, 2 and at 20, 5, 2 and turned by such an angle.
+std::string amfOfInstances(std::string_view angle) {
+    std::string amf =
+        "<?xml version=\"1.0\"?><amf unit=\"millimeter\"><object id=\"0\"><mesh><vertices>";
+    for (const char* vertex : {"<x>0</x><y>0</y>", "<x>1</x><y>0</y>", "<x>0</x><y>1</y>"})
+        amf += fmt::format("<vertex><coordinates>{}<z>0</z></coordinates></vertex>", vertex);
+    amf +=
+        "</vertices><volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh>"
+        "</object><constellation id=\"1\">";
+    for (const int x : {10, 20})
+        amf += fmt::format(
+            "<instance objectid=\"0\"><deltax>{}</deltax><deltay>5</deltay><deltaz>2</deltaz>"
+            "<rx>0</rx><ry>{}</ry><rz>\n{}</rz></instance>",
+            x, angle, angle);
+    return amf + "</constellation></amf>";
+}
+
+TEST(AssimpReader, PutsInstancesOfAmfAtTheirPlacesWhateverTheirAngles) {
+    const test::TemporaryFolder folder;
+    for (const std::string_view angle : {"0", "0.00", "90"}) {
+        test::writeFile(folder.file("m.amf"), amfOfInstances(angle));
+        const auto mesh = readWithAssimp(folder.file("m.amf"));
+        ASSERT_TRUE(mesh.ok()) << mesh.status();
+        EXPECT_THAT(mesh->positions,
+                    testing::IsSupersetOf({fabric::Vec3(10, 5, 2), fabric::Vec3(20, 5, 2)}));
+        EXPECT_THAT(
+            mesh->notes,
+            testing::Contains(HasSubstr("rotations of 2 instances")).Times(angle == "90" ? 1 : 0));
+    }
+}
+
 /// Of two triangles, the second of which may have a corner that is no vertex.
 std::string gltfOfTwoTriangles(int lastCorner) {
     const std::string base64 =
