@@ -300,6 +300,41 @@ TEST(AssimpReader, ReadsObjsWithIndentsCommentsAndNumbersThatBeginWithTheirPoint
     EXPECT_THAT(coloured->colours, testing::Each(fabric::Rgba{128, 255, 128, 255}));
 }
 
+/// The colour that the vertex at `x`, 0, 0 has in a file.
+fabric::Rgba colourAt(const std::string& path, const std::string& text, double x) {
+    test::writeFile(path, text);
+    const auto mesh = readWithAssimp(path);
+    EXPECT_TRUE(mesh.ok()) << mesh.status();
+    for (std::size_t i = 0; mesh.ok() && i < mesh->colours.size(); ++i)
+        if (mesh->positions[i] == fabric::Vec3(x, 0, 0))
+            return mesh->colours[i];
+    ADD_FAILURE() << "no colour";
+    return {};
+}
+
+TEST(AssimpReader, KeepsColoursOfVerticesThatHaveThemAmongOthersOfAnObj) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.file("m.obj");
+    for (const auto& [red, bytes] : {std::pair("1 .5 0", "0 1 0"), {"255 128 0", "0 128 0"}}) {
+        const std::string obj = fmt::format(
+            "v 0 0 0\nv 0 9 0# plain\nv 1 0 0 {}\nv 2 0 0 {}\nf 1 2 3\nf 1 2 4\n", red, bytes);
+        EXPECT_EQ(colourAt(path, obj, 0), (fabric::Rgba{255, 255, 255, 255})) << red;
+        EXPECT_EQ(colourAt(path, obj, 1), (fabric::Rgba{255, 128, 0, 255})) << red;
+    }
+}
+
+TEST(AssimpReader, TakesColoursThatReachTo255AsSuch) {
+    const test::TemporaryFolder folder;
+    const auto objOf = [](const char* colour) {
+        return fmt::format("v 1 0 0 0 64 0\nv 2 0 0 {0}\nv 0 9 0 {0}\nf 1 2 3\n", colour);
+    };
+    EXPECT_EQ(colourAt(folder.file("m.obj"), objOf("0 2 0"), 1), (fabric::Rgba{0, 64, 0, 255}));
+    EXPECT_THAT(notesOfFile(folder.file("m.obj"), objOf("0 2 0")),
+                ElementsAre(HasSubstr("numbers of 0 to 255")));
+    const std::string bright = "v 1 0 0 1.02 .5 0\nv 2 0 0 1 1 1\nv 0 9 0 1 1 1\nf 1 2 3\n";
+    EXPECT_EQ(colourAt(folder.file("m.obj"), bright, 1), (fabric::Rgba{255, 128, 0, 255}));
+}
+
 TEST(ObjForAssimp, LeavesAsTheyAreFilesThatAreReadRightly) {
     EXPECT_FALSE(objForAssimp("# .5\no a .5 # b\nv 0.5 -.5 1.\nvn 0 0 1\nf 1 2 3\n"));
     EXPECT_FALSE(objForAssimp(""));
