@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is read of models before Assimp reads them, or beside it, of any bytes: X3D, COLLADA, AMF,
-// DXF, STL, OBJ and its material files. What one has mended needs no mending.
+// DXF, STL, OFF, OBJ and its material files. What one has mended needs no mending.
 #include <cstdint>
 #include <cstdlib>
 #include <span>
@@ -12,6 +12,7 @@
 #include "renderer/import/dxf_text.h"
 #include "renderer/import/obj_text.h"
 #include "renderer/import/obj_textures.h"
+#include "renderer/import/off_text.h"
 #include "renderer/import/stl_colours.h"
 #include "renderer/import/stl_length.h"
 #include "renderer/import/uri_name.h"
@@ -30,6 +31,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     dxfCaveats(text);
     if (const auto obj = objForAssimp(text); obj && objForAssimp(*obj))
         std::abort();
+    if (const auto off = offForAssimp(text); off && offForAssimp(*off))
+        std::abort();
+    offCaveats(text);
     for (const auto& [material, texture] : objTexturesOf(text))
         if (withoutPercents(texture.name).size() > texture.name.size())
             std::abort();

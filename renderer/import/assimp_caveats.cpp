@@ -11,6 +11,7 @@
 #include "renderer/import/amf_text.h"
 #include "renderer/import/dxf_text.h"
 #include "renderer/import/gltf_extensions.h"
+#include "renderer/import/off_text.h"
 
 namespace eyrie::import {
 namespace {
@@ -89,6 +90,8 @@ std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpF
         return dxfCaveats(text);
     if (format.extension == ".stl")
         return stlCaveats(text);
+    if (format.extension == ".off")
+        return offCaveats(text);
     if (format.extension == ".obj")
         return objCaveats(text);
     const bool isPlaced = text.find("\nloc ") != std::string_view::npos ||

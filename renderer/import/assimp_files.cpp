@@ -16,6 +16,7 @@
 #include "renderer/import/collada_text.h"
 #include "renderer/import/dxf_text.h"
 #include "renderer/import/obj_text.h"
+#include "renderer/import/off_text.h"
 #include "renderer/import/uri_name.h"
 #include "renderer/import/x3d_text.h"
 #include "renderer/mesh/mapped_file.h"
@@ -24,7 +25,7 @@ namespace eyrie::import {
 namespace {
 
 bool isMended(const AssimpFormat& format) {
-    constexpr std::array kExtensions = {".amf", ".x3d", ".dae", ".dxf", ".obj"};
+    constexpr std::array kExtensions = {".amf", ".x3d", ".dae", ".dxf", ".obj", ".off"};
     return std::ranges::count(kExtensions, format.extension) > 0;
 }
 
@@ -34,6 +35,8 @@ std::optional<std::string> mended(std::string_view source, const AssimpFormat& f
         return amfForAssimp(source);
     if (format.extension == ".obj")
         return objForAssimp(source);
+    if (format.extension == ".off")
+        return offForAssimp(source);
     if (format.extension == ".dxf")
         return dxfForAssimp(source);
     return format.extension == ".x3d" ? x3dForAssimp(source) : colladaForAssimp(source);

@@ -9,9 +9,9 @@
 
 namespace eyrie::import {
 
-/// How Assimp opens files of a format: those of glTF by their URIs, and X3D, COLLADA, AMF, DXF and
-/// OBJ, those that others include too, as it understands them (x3d_text.h, collada_text.h,
-/// amf_text.h, dxf_text.h, obj_text.h).
+/// How Assimp opens files of a format: those of glTF by their URIs, and X3D, COLLADA, AMF, DXF, OBJ
+/// and OFF, those that others include too, as it understands them (x3d_text.h, collada_text.h,
+/// amf_text.h, dxf_text.h, obj_text.h, off_text.h).
 std::unique_ptr<Assimp::IOSystem> assimpFiles(const AssimpFormat& format);
 
 }  // namespace eyrie::import
