@@ -49,11 +49,29 @@ std::vector<std::string> colladaCaveats(std::string_view text) {
 /// Assimp takes what there is.
 std::vector<std::string> stlCaveats(std::string_view text) {
     const bool isText = text.starts_with("solid") && text.substr(0, 84).find('\0') == text.npos;
-    if (!isText || text.rfind("endsolid") != text.npos)
+    const std::size_t end = text.rfind("endsolid");
+    const std::size_t lastSolid = text.rfind("\nsolid");  // but the first
+    if (!isText || (end != text.npos && (lastSolid == text.npos || lastSolid < end)))
         return {};
     return {
         "it ends without 'endsolid', as files do that were cut off: copy or export it again if "
         "anything is missing"};
+}
+
+/// Assimp reads as far as the file goes, whatever length its first chunk has.
+std::vector<std::string> lwoCaveats(std::span<const std::byte> bytes) {
+    constexpr std::size_t kBeforeLength = 4, kHeader = 8;  // FORM, and its length
+    if (bytes.size() < kHeader)
+        return {};
+    std::uint64_t length = kHeader;
+    for (std::size_t i = 0; i < 4; ++i)
+        length += std::to_integer<std::uint64_t>(bytes[kBeforeLength + i]) << (24 - 8 * i);
+    if (bytes.size() >= length)
+        return {};
+    return {fmt::format(
+        "its header says that it has {} bytes, and it has {}, as files do that were cut off: copy "
+        "or export it again if anything is missing",
+        length, bytes.size())};
 }
 
 std::vector<std::string> objCaveats(std::string_view text) {
@@ -90,6 +108,8 @@ std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpF
         return dxfCaveats(text);
     if (format.extension == ".stl")
         return stlCaveats(text);
+    if (format.extension == ".lwo" || format.extension == ".lxo")
+        return lwoCaveats(bytes);
     if (format.extension == ".off")
         return offCaveats(text);
     if (format.extension == ".obj")

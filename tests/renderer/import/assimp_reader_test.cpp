@@ -187,6 +187,11 @@ TEST(AssimpReader, SaysWhatFilesLackThatWereCutOffOrAreReadInPart) {
     EXPECT_THAT(notesOf("m.stl", "solid a\n" + facet + facet + "endsolid a\n"), IsEmpty());
     EXPECT_THAT(notesOf("m.stl", "solid a\n" + facet + facet),
                 ElementsAre(HasSubstr("without 'endsolid'")));
+    EXPECT_THAT(notesOf("m.stl", "solid a\n" + facet + "endsolid a\nsolid b\n" + facet),
+                ElementsAre(HasSubstr("without 'endsolid'")));
+    EXPECT_THAT(
+        notesOf("m.stl", "solid a\n" + facet + "endsolid a\nsolid b\n" + facet + "endsolid b\n"),
+        IsEmpty());
 
     const std::string face = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     EXPECT_THAT(notesOf("m.obj", face), IsEmpty());
