@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is read of models before Assimp reads them, or beside it, of any bytes: X3D, COLLADA, STL,
-// OBJ and its material files. What one has mended needs no mending.
+// What is read of models before Assimp reads them, or beside it, of any bytes: X3D, COLLADA, AMF,
+// DXF, STL, OFF, OBJ and its material files. What one has mended needs no mending.
 #include <cstdint>
 #include <cstdlib>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "renderer/import/amf_text.h"
 #include "renderer/import/collada_text.h"
+#include "renderer/import/dxf_text.h"
 #include "renderer/import/obj_text.h"
 #include "renderer/import/obj_textures.h"
+#include "renderer/import/off_text.h"
 #include "renderer/import/stl_colours.h"
 #include "renderer/import/stl_length.h"
 #include "renderer/import/uri_name.h"
@@ -21,8 +24,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto bytes = std::as_bytes(std::span(data, size));
     x3dForAssimp(text);
     colladaForAssimp(text);
+    if (const auto amf = amfForAssimp(text); amf && amf->size() >= size)
+        std::abort();
+    amfCaveats(text);
+    dxfForAssimp(text);
+    dxfCaveats(text);
     if (const auto obj = objForAssimp(text); obj && objForAssimp(*obj))
         std::abort();
+    if (const auto off = offForAssimp(text); off && offForAssimp(*off))
+        std::abort();
+    offCaveats(text);
     for (const auto& [name, material] : objMaterialsOf(text))
         if (withoutPercents(material.texture.name).size() > material.texture.name.size())
             std::abort();

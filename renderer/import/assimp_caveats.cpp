@@ -8,27 +8,76 @@
 
 #include <fmt/format.h>
 
+#include "renderer/import/amf_text.h"
+#include "renderer/import/dxf_text.h"
 #include "renderer/import/gltf_extensions.h"
+#include "renderer/import/off_text.h"
+#include "renderer/import/xml_tag.h"
 
 namespace eyrie::import {
 namespace {
 
-/// Of the nodes of X3D that hold others and are passed over with all in them, those in a file.
-std::vector<std::string> x3dCaveats(std::string_view text) {
-    constexpr std::array<std::string_view, 8> kPassedOver = {
-        "Anchor",       "Billboard",     "Collision", "GeoLOD",
-        "GeoTransform", "HAnimHumanoid", "LOD",       "ProtoInstance"};
+/// Whether an X3D file has nodes of that kind.
+bool hasNodes(std::string_view x3d, std::string_view kind) {
+    constexpr std::string_view kEnds = " \t\r\n>/";
+    const std::string opening = fmt::format("<{}", kind);
+    for (std::size_t at = x3d.find(opening); at != std::string_view::npos;
+         at = x3d.find(opening, at + 1))
+        if (const std::size_t end = at + opening.size();
+            end < x3d.size() && kEnds.find(x3d[end]) != std::string_view::npos)
+            return true;
+    return false;
+}
+
+std::string kindsAmong(std::string_view x3d, std::span<const std::string_view> kinds) {
     std::string found;
-    for (const std::string_view name : kPassedOver)
-        if (text.find(fmt::format("<{} ", name)) != std::string_view::npos ||
-            text.find(fmt::format("<{}>", name)) != std::string_view::npos)
-            found += fmt::format("{}{}", found.empty() ? "" : ", ", name);
-    if (found.empty())
-        return {};
-    return {
-        fmt::format("left out all that is in nodes of the kinds {}, which are not read: put it "
-                    "into Groups and Transforms",
-                    found)};
+    for (const std::string_view kind : kinds)
+        if (hasNodes(x3d, kind))
+            found += fmt::format("{}{}", found.empty() ? "" : ", ", kind);
+    return found;
+}
+
+/// Assimp gives such colours to faces' corners, and those that share a vertex have the last one's.
+std::uint64_t countShapesWithColouredFaces(std::string_view x3d) {
+    constexpr std::string_view kShape = "<Shape", kEnd = "</Shape";
+    std::uint64_t count = 0;
+    for (std::size_t at = x3d.find(kShape); at != std::string_view::npos;
+         at = x3d.find(kShape, at)) {
+        const std::string_view shape = x3d.substr(at, x3d.find(kEnd, at) - at);
+        const std::size_t set = shape.find("colorPerVertex");
+        if (set != std::string_view::npos && shape.find("<Color") != std::string_view::npos)
+            count += xmlAttribute(shape.substr(set - 1), "colorPerVertex") == "false" ? 1 : 0;
+        at += shape.size();
+    }
+    return count;
+}
+
+/// Nodes that hold others and are passed over with all in them, shapes that are not read, and
+/// colours that are read for others'.
+std::vector<std::string> x3dCaveats(std::string_view text) {
+    constexpr std::array<std::string_view, 15> kHolders = {
+        "Anchor",  "Billboard", "CADAssembly",   "CADFace",      "CADLayer",
+        "CADPart", "Collision", "GeoLOD",        "GeoTransform", "HAnimHumanoid",
+        "LOD",     "Layer",     "ProtoInstance", "ScreenGroup",  "ViewpointGroup"};
+    constexpr std::array<std::string_view, 8> kShapes = {
+        "GeoElevationGrid",  "IndexedQuadSet",      "NurbsPatchSurface", "NurbsSweptSurface",
+        "NurbsSwungSurface", "NurbsTrimmedSurface", "QuadSet",           "Text"};
+    std::vector<std::string> caveats;
+    if (const std::string found = kindsAmong(text, kHolders); !found.empty())
+        caveats.push_back(
+            fmt::format("left out all that is in nodes of the kinds {}, which are not read: put it "
+                        "into Groups and Transforms",
+                        found));
+    if (const std::string found = kindsAmong(text, kShapes); !found.empty())
+        caveats.push_back(fmt::format(
+            "left out shapes of the kinds {}, which are not read: export them as triangles",
+            found));
+    if (const std::uint64_t shapes = countShapesWithColouredFaces(text); shapes > 0)
+        caveats.push_back(
+            fmt::format("colours of faces of {} shapes are not taken right where these share "
+                        "vertices: give colours to vertices",
+                        shapes));
+    return caveats;
 }
 
 /// Assimp reads Maya's way to say so, and not the format's.
@@ -43,14 +92,39 @@ std::vector<std::string> colladaCaveats(std::string_view text) {
     return {};
 }
 
+/// What is packed is not mended (collada_text.h).
+std::vector<std::string> packedColladaCaveats() {
+    return {
+        "what its materials say of the coordinates that textures lie by (<bind_vertex_input>) is "
+        "not read of packed files: unpack it to .dae if they lie wrong"};
+}
+
 /// Assimp takes what there is.
 std::vector<std::string> stlCaveats(std::string_view text) {
     const bool isText = text.starts_with("solid") && text.substr(0, 84).find('\0') == text.npos;
-    if (!isText || text.rfind("endsolid") != text.npos)
+    const std::size_t end = text.rfind("endsolid");
+    const std::size_t lastSolid = text.rfind("\nsolid");  // but the first
+    if (!isText || (end != text.npos && (lastSolid == text.npos || lastSolid < end)))
         return {};
     return {
         "it ends without 'endsolid', as files do that were cut off: copy or export it again if "
         "anything is missing"};
+}
+
+/// Assimp reads as far as the file goes, whatever length its first chunk has.
+std::vector<std::string> lwoCaveats(std::span<const std::byte> bytes) {
+    constexpr std::size_t kBeforeLength = 4, kHeader = 8;  // FORM, and its length
+    if (bytes.size() < kHeader)
+        return {};
+    std::uint64_t length = kHeader;
+    for (std::size_t i = 0; i < 4; ++i)
+        length += std::to_integer<std::uint64_t>(bytes[kBeforeLength + i]) << (24 - 8 * i);
+    if (bytes.size() >= length)
+        return {};
+    return {fmt::format(
+        "its header says that it has {} bytes, and it has {}, as files do that were cut off: copy "
+        "or export it again if anything is missing",
+        length, bytes.size())};
 }
 
 std::vector<std::string> objCaveats(std::string_view text) {
@@ -81,8 +155,18 @@ std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpF
         return x3dCaveats(text);
     if (format.extension == ".dae")
         return colladaCaveats(text);
+    if (format.extension == ".zae")
+        return packedColladaCaveats();
+    if (format.extension == ".amf")
+        return amfCaveats(text);
+    if (format.extension == ".dxf")
+        return dxfCaveats(text);
     if (format.extension == ".stl")
         return stlCaveats(text);
+    if (format.extension == ".lwo" || format.extension == ".lxo")
+        return lwoCaveats(bytes);
+    if (format.extension == ".off")
+        return offCaveats(text);
     if (format.extension == ".obj")
         return objCaveats(text);
     const bool isPlaced = text.find("\nloc ") != std::string_view::npos ||

@@ -2,6 +2,7 @@
 #include "renderer/import/assimp_files.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -12,8 +13,11 @@
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
 
+#include "renderer/import/amf_text.h"
 #include "renderer/import/collada_text.h"
+#include "renderer/import/dxf_text.h"
 #include "renderer/import/obj_text.h"
+#include "renderer/import/off_text.h"
 #include "renderer/import/texture_files.h"
 #include "renderer/import/uri_name.h"
 #include "renderer/import/x3d_text.h"
@@ -23,13 +27,20 @@ namespace eyrie::import {
 namespace {
 
 bool isMended(const AssimpFormat& format) {
-    return format.extension == ".x3d" || format.extension == ".dae" || format.extension == ".obj";
+    constexpr std::array kExtensions = {".amf", ".x3d", ".dae", ".dxf", ".obj", ".off"};
+    return std::ranges::count(kExtensions, format.extension) > 0;
 }
 
 /// Nothing where it may be read as it is.
 std::optional<std::string> mended(std::string_view source, const AssimpFormat& format) {
+    if (format.extension == ".amf")
+        return amfForAssimp(source);
     if (format.extension == ".obj")
         return objForAssimp(source);
+    if (format.extension == ".off")
+        return offForAssimp(source);
+    if (format.extension == ".dxf")
+        return dxfForAssimp(source);
     return format.extension == ".x3d" ? x3dForAssimp(source) : colladaForAssimp(source);
 }
 

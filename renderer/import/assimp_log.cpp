@@ -31,7 +31,8 @@ std::string_view textOf(std::string_view line) {
     return text;
 }
 
-/// Of what is drawn. Animations, bones, lines and the like are not, nor what nobody asked for.
+/// Of what is drawn. Animations, bones, lines and the like are not, nor what nobody asked for; what
+/// an STL lacks at its end its caveat tells.
 bool tellsOfALoss(std::string_view text) {
     constexpr std::array kLosses = {"dropped",
                                     "kipping",
@@ -46,10 +47,12 @@ bool tellsOfALoss(std::string_view text) {
                                     "not currently implemented",
                                     "unsupported boolean",
                                     "unsupported primitive",
-                                    "did not encounter"};
+                                    "did not encounter",
+                                    "nexpected EOF",
+                                    "in the header is incorrect"};
     constexpr std::array kOthers = {
-        "nimation", "bone",     "Bone",   "umbNail", "OptimizeMeshes", "property",
-        "Property", "settings", "Weight", "TCB",     "IfcPolyline",    "lines with the same"};
+        "nimation", "bone",   "Bone", "umbNail",     "OptimizeMeshes",      "property", "Property",
+        "settings", "Weight", "TCB",  "IfcPolyline", "lines with the same", "endsolid"};
     const auto has = [&](const char* words) { return text.find(words) != std::string_view::npos; };
     return std::ranges::any_of(kLosses, has) && std::ranges::none_of(kOthers, has);
 }

@@ -24,6 +24,7 @@
 #include "fabric/box.h"
 #include "fabric/status.h"
 #include "renderer/import/assimp_axes.h"
+#include "renderer/import/assimp_colours.h"
 #include "renderer/import/assimp_lights.h"
 #include "renderer/import/assimp_materials.h"
 #include "renderer/import/assimp_values.h"
@@ -42,22 +43,12 @@ std::uint8_t byteOf(float value, bool isLinear) {
     return static_cast<std::uint8_t>(std::lround(255 * shown));
 }
 
-bool isBelowZero(const aiColor4D& colour) {
-    return !(colour.r >= 0 && colour.g >= 0 && colour.b >= 0 && colour.a >= 0);
-}
-
-/// Assimp gives colours of glTF that are of three numbers an alpha of 0, which is to be 1.
-bool lacksAlpha(const aiMesh& mesh, const aiColor4D* colours) {
-    return std::all_of(colours, colours + mesh.mNumVertices,
-                       [](const aiColor4D& colour) { return colour.a == 0; });
-}
-
-bool isNothing(const aiColor4D& colour) { return colour == aiColor4D(0, 0, 0, 0); }
-
-bool hasOwnMaterial(const aiMaterial& material) {
+/// That of OFF, whose files have none, has no name and is grey.
+bool hasOwnMaterial(const aiMaterial& material, const AssimpFormat& format) {
     aiString name;
     aiColor4D ignored;
-    return material.Get(AI_MATKEY_COLOR_DIFFUSE, ignored) == AI_SUCCESS &&
+    return format.extension != ".off" &&
+           material.Get(AI_MATKEY_COLOR_DIFFUSE, ignored) == AI_SUCCESS &&
            !(material.Get(AI_MATKEY_NAME, name) == AI_SUCCESS &&
              std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME);
 }
@@ -79,23 +70,22 @@ bool isOfSinglePrecision(const AssimpFormat& format) {
 class SceneMeshes {
 public:
     SceneMeshes(const aiScene& scene, const AssimpFormat& format)
-        : scene_(scene), format_(format), materials_(scene, format) {
+        : scene_(scene), format_(format), materials_(scene, format), colours_(scene, format) {
+        hasColours_ = colours_.areAny();
         for (unsigned int i = 0; i < scene.mNumMeshes; ++i) {
             const aiMesh& mesh = *scene.mMeshes[i];
             hasNormals_ = hasNormals_ || mesh.mNormals != nullptr;
-            lookAtColours(mesh);
-            hasColours_ = hasColours_ || colours_.back() != nullptr || materialOf(mesh) != nullptr;
+            hasColours_ = hasColours_ || materialOf(mesh) != nullptr;
         }
     }
 
     absl::StatusOr<TriangleMesh> gather();
 
 private:
-    void lookAtColours(const aiMesh& mesh);
     const aiMaterial* materialOf(const aiMesh& mesh) const;
     absl::Status add(unsigned int number, const glm::dmat4& worldFromMesh);
     absl::Status addVertices(const aiMesh& mesh, const glm::dmat4& worldFromMesh);
-    void addColours(const aiMesh& mesh, const aiColor4D* colours);
+    void addColours(unsigned int number);
     void addTextureCoordinates(const aiMesh& mesh);
     absl::Status addFaces(const aiMesh& mesh, std::uint32_t first, bool isMirrored);
     absl::Status addFace(const aiFace& face, std::uint32_t first);
@@ -105,8 +95,7 @@ private:
     const aiScene& scene_;
     const AssimpFormat& format_;
     AssimpMaterials materials_;
-    std::vector<const aiColor4D*> colours_;  // of each mesh's vertices, or null
-    std::size_t wrongColours_ = 0;           // meshes of which they are left out
+    AssimpColours colours_;
     bool hasNormals_ = false;
     bool hasColours_ = false;
     double farthest_ = 0;  // metres of a vertex from its mesh's own origin
@@ -114,24 +103,11 @@ private:
     std::vector<std::uint32_t> corners_;  // of the face being added
 };
 
-/// Assimp gives AMF's vertices the colour 0, 0, 0, 0 where the file has none, and takes Blender's
-/// bytes for signed ones. glTF's mean what they say.
-void SceneMeshes::lookAtColours(const aiMesh& mesh) {
-    colours_.push_back(mesh.mColors[0]);
-    if (mesh.mColors[0] == nullptr || format_.hasLinearColours)
-        return;
-    const std::span colours(mesh.mColors[0], mesh.mNumVertices);
-    const bool isWrong = std::ranges::any_of(colours, isBelowZero);
-    wrongColours_ += isWrong ? 1 : 0;
-    if (isWrong || std::ranges::all_of(colours, isNothing))
-        colours_.back() = nullptr;
-}
-
 const aiMaterial* SceneMeshes::materialOf(const aiMesh& mesh) const {
     if (mesh.mMaterialIndex >= scene_.mNumMaterials)
         return nullptr;
     const aiMaterial* material = scene_.mMaterials[mesh.mMaterialIndex];
-    return hasOwnMaterial(*material) ? material : nullptr;
+    return hasOwnMaterial(*material, format_) ? material : nullptr;
 }
 
 absl::Status SceneMeshes::addVertices(const aiMesh& mesh, const glm::dmat4& worldFromMesh) {
@@ -155,16 +131,14 @@ absl::Status SceneMeshes::addVertices(const aiMesh& mesh, const glm::dmat4& worl
     return absl::OkStatus();
 }
 
-void SceneMeshes::addColours(const aiMesh& mesh, const aiColor4D* colours) {
+void SceneMeshes::addColours(unsigned int number) {
+    const aiMesh& mesh = *scene_.mMeshes[number];
     const aiMaterial* material = materialOf(mesh);
-    aiColor4D diffuse = colours != nullptr ? aiColor4D(1, 1, 1, 1) : kPlain;
+    aiColor4D diffuse = colours_.areAnyOf(number) ? aiColor4D(1, 1, 1, 1) : kPlain;
     if (material != nullptr)
         diffuse = materials_.colourOf(mesh);
-    const bool takesOpaque = colours != nullptr && format_.isGltf() && lacksAlpha(mesh, colours);
     for (unsigned int i = 0; i < mesh.mNumVertices; ++i) {
-        aiColor4D own = colours != nullptr ? colours[i] : aiColor4D(1, 1, 1, 1);
-        if (takesOpaque)
-            own.a = 1;
+        const aiColor4D own = colours_.of(number, i);
         const auto shown = [this](float value) { return byteOf(value, format_.hasLinearColours); };
         result_.colours.push_back(
             {shown(diffuse.r * own.r), shown(diffuse.g * own.g), shown(diffuse.b * own.b),
@@ -221,7 +195,7 @@ absl::Status SceneMeshes::add(unsigned int number, const glm::dmat4& worldFromMe
             "found more than 2^32 vertices, all instances of meshes counted; import it in parts");
     RETURN_IF_ERROR(addVertices(mesh, worldFromMesh));
     if (hasColours_)
-        addColours(mesh, colours_[number]);
+        addColours(number);
     if (materials_.areAny())
         addTextureCoordinates(mesh);
     return addFaces(mesh, static_cast<std::uint32_t>(first),
@@ -229,10 +203,7 @@ absl::Status SceneMeshes::add(unsigned int number, const glm::dmat4& worldFromMe
 }
 
 void SceneMeshes::noteWhatIsLeftOut() {
-    if (wrongColours_ > 0)
-        result_.notes.push_back(
-            fmt::format("left out vertices' colours of {} of {} meshes, which are below 0",
-                        wrongColours_, scene_.mNumMeshes));
+    for (std::string& note : colours_.notes()) result_.notes.push_back(std::move(note));
     if (scene_.mNumAnimations > 0)
         result_.notes.push_back(
             fmt::format("left out its animations, {} of them: everything stays where "

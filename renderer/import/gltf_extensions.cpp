@@ -47,6 +47,29 @@ std::vector<std::string> namesAt(std::string_view json, std::string_view key) {
     return names;
 }
 
+/// Without taking apart all that a file may have in its texts.
+std::size_t countScenes(std::string_view json) {
+    constexpr std::string_view kKey = "\"scenes\"";
+    std::string_view rest = json.substr(std::min(json.find(kKey), json.size()));
+    rest.remove_prefix(std::min(kKey.size(), rest.size()));
+    if (!take(rest, ':') || !take(rest, '['))
+        return 0;
+    std::size_t count = 0, depth = 0;
+    bool isQuoted = false;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+        const char c = rest[i];
+        if (isQuoted && c == '\\')
+            ++i;
+        else if (c == '"')
+            isQuoted = !isQuoted;
+        else if (!isQuoted && (c == '{' || c == '['))
+            count += depth++ == 0 ? 1 : 0;
+        else if (!isQuoted && (c == '}' || c == ']') && depth-- == 0)
+            break;
+    }
+    return count;
+}
+
 /// Materials are drawn by their diffuse colour and texture alone, and textures of a kind that is
 /// not read are told of.
 bool isRead(std::string_view extension) {
@@ -142,6 +165,10 @@ std::vector<std::string> gltfCaveats(std::span<const std::byte> bytes) {
             if (std::string caveat = textureCaveat(json, extension); !caveat.empty())
                 caveats.push_back(std::move(caveat));
     }
+    if (const std::size_t scenes = countScenes(json); scenes > 1)  // Assimp reads the one shown
+        caveats.push_back(
+            fmt::format("left out {} of its {} scenes: export what you want of them as one",
+                        scenes - 1, scenes));
     if (json.find("\"weights\"") != json.npos)
         if (std::string caveat = morphCaveat(json); !caveat.empty())
             caveats.push_back(std::move(caveat));

@@ -15,7 +15,7 @@ namespace eyrie::import {
 absl::Status checkGltfExtensions(std::span<const std::byte> bytes);
 
 /// What a file uses that moves or repeats what it shows, or has its images in, and is left out
-/// here: for TriangleMesh::notes.
+/// here, and scenes that it does not show: for TriangleMesh::notes.
 std::vector<std::string> gltfCaveats(std::span<const std::byte> bytes);
 
 }  // namespace eyrie::import

@@ -409,6 +409,11 @@ absl::StatusOr<TriangleMesh> BodyReader<Values>::read(const std::string& path) {
     if (isTextured_)
         RETURN_IF_ERROR(textures_.applyTo(mesh_, polygonCorners_, textureNames(header_, path)));
     RETURN_IF_ERROR(triangulatePolygons());
+    if (!values_.atEnd())
+        mesh_.notes.push_back(
+            fmt::format("left out {} bytes behind what its header counts: if these are faces, "
+                        "export it again",
+                        values_.bytesLeft()));
     RETURN_IF_ERROR(handOver());
     if (mesh_.triangles.empty() && handedOver_ == 0)
         return absl::InvalidArgumentError(

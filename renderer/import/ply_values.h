@@ -72,7 +72,10 @@ public:
         return count <= bytesLeft() / sizeBytes(type);
     }
 
-    bool atEnd() const { return false; }
+    /// Whether nothing but what files are filled up with is left: line breaks, zeros.
+    bool atEnd() const {
+        return std::all_of(at_, end_, [](char c) { return c == '\0' || c == '\n' || c == '\r'; });
+    }
     std::uint64_t bytesLeft() const { return static_cast<std::uint64_t>(end_ - at_); }
     std::uint64_t offset() const { return static_cast<std::uint64_t>(at_ - begin_); }
 

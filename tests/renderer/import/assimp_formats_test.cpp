@@ -23,6 +23,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/import/assimp_reader.h"
+#include "tests/renderer/import/assimp_files.h"
 #include "tests/renderer/import/mesh_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
@@ -411,6 +412,31 @@ TEST(WrittenFormats, OfBonesAloneHaveNoFace) {
     const auto mesh = readWithAssimp(folder.file("t.smd"));
     ASSERT_FALSE(mesh.ok());
     EXPECT_THAT(std::string(mesh.status().message()), testing::HasSubstr("found no face"));
+}
+
+/// Of which Assimp takes what there is.
+TEST(WrittenFormats, SayThatTheyWereCutOff) {
+    const test::TemporaryFolder folder;
+    const auto notesOf = [&](const std::string& name, const std::string& content) {
+        test::writeFile(folder.file(name), content);
+        const auto mesh = readWithAssimp(folder.file(name));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        return mesh.ok() ? mesh->notes : std::vector<std::string>();
+    };
+    const auto cut = [](const std::string& content, std::size_t by) {
+        return content.substr(0, content.size() - by);
+    };
+    using testing::HasSubstr;
+    EXPECT_THAT(notesOf("t.lwo", lwo()), testing::IsEmpty());
+    EXPECT_THAT(notesOf("t.lwo", cut(lwo(), 12)),
+                testing::ElementsAre(HasSubstr("says that it has 188 bytes, and it has 176")));
+    EXPECT_THAT(notesOf("t.smd", smd()), testing::Not(testing::Contains(HasSubstr("EOF"))));
+    EXPECT_THAT(notesOf("t.smd", cut(smd(), 10)), testing::Contains(HasSubstr("Unexpected EOF")));
+    const std::string ac = test::kAc3d;
+    EXPECT_THAT(notesOf("t.ac", ac.substr(0, ac.rfind("F 0x10"))),
+                testing::Contains(HasSubstr("Unexpected EOF")));
+    EXPECT_THAT(notesOf("t.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+                testing::Contains(HasSubstr("faces in the header is incorrect")));
 }
 
 TEST(WrittenFormats, OfAmfWithoutColoursIsPlain) {

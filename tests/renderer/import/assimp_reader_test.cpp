@@ -188,6 +188,11 @@ TEST(AssimpReader, SaysWhatFilesLackThatWereCutOffOrAreReadInPart) {
     EXPECT_THAT(notesOf("m.stl", "solid a\n" + facet + facet + "endsolid a\n"), IsEmpty());
     EXPECT_THAT(notesOf("m.stl", "solid a\n" + facet + facet),
                 ElementsAre(HasSubstr("without 'endsolid'")));
+    EXPECT_THAT(notesOf("m.stl", "solid a\n" + facet + "endsolid a\nsolid b\n" + facet),
+                ElementsAre(HasSubstr("without 'endsolid'")));
+    EXPECT_THAT(
+        notesOf("m.stl", "solid a\n" + facet + "endsolid a\nsolid b\n" + facet + "endsolid b\n"),
+        IsEmpty());
 
     const std::string face = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     EXPECT_THAT(notesOf("m.obj", face), IsEmpty());
@@ -213,8 +218,39 @@ TEST(AssimpReader, SaysThatBlocksOfDxfAreNotTurned) {
     };
     EXPECT_THAT(notesOf(dxfOfABlock(0, "0\nEOF\n")), IsEmpty());
     EXPECT_THAT(notesOf(dxfOfABlock(90, "0\nEOF\n")),
-                ElementsAre(HasSubstr("BLOCK rotation not currently implemented")));
+                ElementsAre(HasSubstr("1 blocks are not put as the file has them")));
     EXPECT_THAT(notesOf(dxfOfABlock(0, "")), ElementsAre(HasSubstr("did not encounter DXF EOF")));
+}
+
+/// A triangle that is put at 10, 5, 2 and at 20, 5, 2 and turned by such an angle.
+std::string amfOfInstances(std::string_view angle) {
+    std::string amf =
+        "<?xml version=\"1.0\"?><amf unit=\"millimeter\"><object id=\"0\"><mesh><vertices>";
+    for (const char* vertex : {"<x>0</x><y>0</y>", "<x>1</x><y>0</y>", "<x>0</x><y>1</y>"})
+        amf += fmt::format("<vertex><coordinates>{}<z>0</z></coordinates></vertex>", vertex);
+    amf +=
+        "</vertices><volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh>"
+        "</object><constellation id=\"1\">";
+    for (const int x : {10, 20})
+        amf += fmt::format(
+            "<instance objectid=\"0\"><deltax>{}</deltax><deltay>5</deltay><deltaz>2</deltaz>"
+            "<rx>0</rx><ry>{}</ry><rz>\n{}</rz></instance>",
+            x, angle, angle);
+    return amf + "</constellation></amf>";
+}
+
+TEST(AssimpReader, PutsInstancesOfAmfAtTheirPlacesWhateverTheirAngles) {
+    const test::TemporaryFolder folder;
+    for (const std::string_view angle : {"0", "0.00", "90"}) {
+        test::writeFile(folder.file("m.amf"), amfOfInstances(angle));
+        const auto mesh = readWithAssimp(folder.file("m.amf"));
+        ASSERT_TRUE(mesh.ok()) << mesh.status();
+        EXPECT_THAT(mesh->positions,
+                    testing::IsSupersetOf({fabric::Vec3(10, 5, 2), fabric::Vec3(20, 5, 2)}));
+        EXPECT_THAT(
+            mesh->notes,
+            testing::Contains(HasSubstr("rotations of 2 instances")).Times(angle == "90" ? 1 : 0));
+    }
 }
 
 /// Of two triangles, the second of which may have a corner that is no vertex.
@@ -268,6 +304,41 @@ TEST(AssimpReader, ReadsObjsWithIndentsCommentsAndNumbersThatBeginWithTheirPoint
     ASSERT_TRUE(coloured.ok()) << coloured.status();
     EXPECT_THAT(coloured->positions, testing::Contains(fabric::Vec3(1, 2, 3)));
     EXPECT_THAT(coloured->colours, testing::Each(fabric::Rgba{128, 255, 128, 255}));
+}
+
+/// The colour that the vertex at `x`, 0, 0 has in a file.
+fabric::Rgba colourAt(const std::string& path, const std::string& text, double x) {
+    test::writeFile(path, text);
+    const auto mesh = readWithAssimp(path);
+    EXPECT_TRUE(mesh.ok()) << mesh.status();
+    for (std::size_t i = 0; mesh.ok() && i < mesh->colours.size(); ++i)
+        if (mesh->positions[i] == fabric::Vec3(x, 0, 0))
+            return mesh->colours[i];
+    ADD_FAILURE() << "no colour";
+    return {};
+}
+
+TEST(AssimpReader, KeepsColoursOfVerticesThatHaveThemAmongOthersOfAnObj) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.file("m.obj");
+    for (const auto& [red, bytes] : {std::pair("1 .5 0", "0 1 0"), {"255 128 0", "0 128 0"}}) {
+        const std::string obj = fmt::format(
+            "v 0 0 0\nv 0 9 0# plain\nv 1 0 0 {}\nv 2 0 0 {}\nf 1 2 3\nf 1 2 4\n", red, bytes);
+        EXPECT_EQ(colourAt(path, obj, 0), (fabric::Rgba{255, 255, 255, 255})) << red;
+        EXPECT_EQ(colourAt(path, obj, 1), (fabric::Rgba{255, 128, 0, 255})) << red;
+    }
+}
+
+TEST(AssimpReader, TakesColoursThatReachTo255AsSuch) {
+    const test::TemporaryFolder folder;
+    const auto objOf = [](const char* colour) {
+        return fmt::format("v 1 0 0 0 64 0\nv 2 0 0 {0}\nv 0 9 0 {0}\nf 1 2 3\n", colour);
+    };
+    EXPECT_EQ(colourAt(folder.file("m.obj"), objOf("0 2 0"), 1), (fabric::Rgba{0, 64, 0, 255}));
+    EXPECT_THAT(notesOfFile(folder.file("m.obj"), objOf("0 2 0")),
+                ElementsAre(HasSubstr("numbers of 0 to 255")));
+    const std::string bright = "v 1 0 0 1.02 .5 0\nv 2 0 0 1 1 1\nv 0 9 0 1 1 1\nf 1 2 3\n";
+    EXPECT_EQ(colourAt(folder.file("m.obj"), bright, 1), (fabric::Rgba{255, 128, 0, 255}));
 }
 
 TEST(ObjForAssimp, LeavesAsTheyAreFilesThatAreReadRightly) {

@@ -89,6 +89,18 @@ TEST(GltfExtensions, ThatMoveOrRepeatMeshesAreToldOfWhereTheyAreLeftOut) {
         ElementsAre(HasSubstr("CESIUM_RTC"), HasSubstr("EXT_mesh_gpu_instancing")));
 }
 
+TEST(GltfScenes, ThatAreNotShownAreCounted) {
+    const auto caveatsOf = [](std::string_view scenes) {
+        return gltfCaveats(bytesOf(fmt::format(R"({{"scene": 0, "scenes"{}}})", scenes)));
+    };
+    EXPECT_THAT(caveatsOf(R"( : [{"name": "}, {\"]", "nodes": [0, 1], "extras": {"a": [{}]}}])"),
+                IsEmpty());
+    EXPECT_THAT(caveatsOf(R"(: [ {"nodes": [0]}, {"nodes": [1]},{}])"),
+                ElementsAre(HasSubstr("left out 2 of its 3 scenes")));
+    for (const std::string_view broken : {"", ":", ":[", ":[}", ":3", ": []", R"(:["\)"})
+        EXPECT_THAT(caveatsOf(broken), IsEmpty()) << broken;
+}
+
 TEST(GltfExtensions, OfTexturesAreToldOfWhereThereIsNoOtherImage) {
     for (const std::string_view name :
          {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds"}) {

@@ -16,12 +16,14 @@ eyrie_test(assimp_formats_test LABEL unit LINK eyrie::mesh_import assimp::assimp
 eyrie_test(assimp_reader_test LABEL unit
            SOURCES assimp_lights_test.cpp assimp_reader_test.cpp assimp_textures_test.cpp
            LINK eyrie::mesh_import assimp::assimp)
+eyrie_test(dxf_text_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(gltf_extensions_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(jdn_reader_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(source_lights_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(gltf_unpacking_test LABEL unit LINK eyrie::mesh_import meshoptimizer::meshoptimizer)
 eyrie_test(joined_meshes_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(mesh_reader_test LABEL unit LINK eyrie::mesh_import)
+eyrie_test(off_text_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(orient_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(texture_places_test LABEL unit LINK eyrie::mesh_import assimp::assimp)
 eyrie_test(mesh_files_test LABEL unit LINK eyrie::mesh_import)

@@ -162,6 +162,20 @@ TEST(PlyReader, SaysWhatItLeavesOutOfALook) {
     }
 }
 
+TEST(PlyReader, SaysThatMoreFollowsThanItsHeaderCounts) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    for (const Encoding encoding : {Encoding::Ascii, Encoding::LittleEndian, Encoding::BigEndian}) {
+        const std::string ply = plyOf(mesh, encoding);
+        EXPECT_THAT(parsed(ply).notes, testing::IsEmpty());
+        EXPECT_THAT(parsed(ply + "\r\n\n").notes, testing::IsEmpty());
+        EXPECT_THAT(
+            parsed(ply + "3 0 2 1\n").notes,
+            testing::ElementsAre(testing::HasSubstr("bytes behind what its header counts")));
+    }
+}
+
 TEST(PlyReader, LaysTheFirstImageByTheCoordinatesOfVertices) {
     for (const auto& [u, v] : {std::pair("s", "t"), {"u", "v"}, {"texture_u", "texture_v"}}) {
         const TriangleMesh mesh = parsed(naming(withPlaces(u, v), {"my wall.png", "b.png"}));

@@ -11,6 +11,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "renderer/import/assimp_caveats.h"
+#include "renderer/import/assimp_formats.h"
 #include "renderer/import/assimp_reader.h"
 #include "renderer/import/collada_text.h"
 #include "renderer/import/x3d_text.h"
@@ -108,6 +110,34 @@ TEST(NodesOfX3d, ThatAreNotReadAreNamed) {
     text.insert(text.find("<Shape>"), "<LOD range='1'><Group/></LOD><Anchor><Group/></Anchor>");
     EXPECT_THAT(read("m.x3d", text).notes,
                 ElementsAre(HasSubstr("in nodes of the kinds Anchor, LOD,")));
+    text.insert(text.find("<Shape>"), "<CADLayer\n><Group/></CADLayer>");
+    EXPECT_THAT(read("m.x3d", text).notes,
+                ElementsAre(HasSubstr("in nodes of the kinds Anchor, CADLayer, LOD,")));
+}
+
+TEST(NodesOfX3d, ThatAreShapesAndNotReadAreNamed) {
+    std::string text = x3d("url='\"w.png\"'");
+    text.insert(text.find("<Shape>"),
+                "<Shape><QuadSet/></Shape><Shape><NurbsPatchSurface\tuClosed='true'/></Shape>");
+    EXPECT_THAT(read("m.x3d", text).notes,
+                ElementsAre(HasSubstr("shapes of the kinds NurbsPatchSurface, QuadSet,")));
+}
+
+TEST(ColoursOfX3d, OfFacesAreToldOf) {
+    constexpr const char* kOfCorners = "colorIndex='0 1 0 -1 1 0 1 -1'";
+    constexpr const char* kOfFaces = "colorPerVertex = 'false' colorIndex='0 1'";
+    for (const auto& [set, count] : {std::pair(kOfCorners, 0), {kOfFaces, 1}}) {
+        const std::string shape = fmt::format(
+            "<Shape><IndexedFaceSet {} coordIndex='0 1 2 -1 1 3 2 -1'>"
+            "<Coordinate point='0 0 0 1 0 0 0 1 0 1 1 0'/>",
+            set);
+        const std::string end = "</IndexedFaceSet></Shape></Scene></X3D>";
+        const std::string begin = "<?xml version='1.0'?><X3D version='3.0'><Scene>";
+        EXPECT_THAT(read("m.x3d", begin + shape + end).notes, IsEmpty()) << set;
+        EXPECT_THAT(read("m.x3d", begin + shape + "<Color color='1 0 0 0 0 1'/>" + end).notes,
+                    testing::Contains(HasSubstr("colours of faces of 1 shapes")).Times(count))
+            << set;
+    }
 }
 
 TEST(X3dText, StaysWhereThereIsNothingToMend) {
@@ -309,6 +339,11 @@ TEST(TexturesOf3ds, EndAtTheirEdgesWhereTheyAreNotTiled) {
     expectPlaces(decal, kPlain);
     EXPECT_EQ(decal.textures[0].flags, mesh::kClampsU | mesh::kClampsV);
     EXPECT_THAT(decal.notes, ElementsAre(HasSubstr("ought to leave free")));
+}
+
+TEST(TexturesOfCollada, ThatIsPackedMayLieWrong) {
+    EXPECT_THAT(caveats({}, *findAssimpFormat("m.zae")),
+                ElementsAre(HasSubstr("<bind_vertex_input>")));
 }
 
 TEST(ColladaText, StaysWhereNothingIsBound) {

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace eyrie::import {
+
+/// An AMF file without the angles of its instances (ISO/ASTM 52915), which Assimp 5.2 takes for the
+/// places; nothing for one without any.
+std::optional<std::string> amfForAssimp(std::string_view amf);
+
+/// For TriangleMesh::notes: how many instances are turned, which are left as they are.
+std::vector<std::string> amfCaveats(std::string_view amf);
+
+}  // namespace eyrie::import

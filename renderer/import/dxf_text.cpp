@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/dxf_text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <glm/vec3.hpp>
+
+#include "renderer/import/mended_text.h"
+
+namespace eyrie::import {
+namespace {
+
+/// Of one INSERT; a few numbers may ask for a thousand million.
+constexpr double kMostCopies = 4096;
+
+/// Without the line's end, and blanks before it.
+std::string_view lineAt(std::string_view text, std::size_t& at) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::string_view line = text.substr(at, end - at);
+    at = std::min(end + 1, text.size());
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+    return line;
+}
+
+template <typename Number>
+Number numberOf(std::string_view text, Number otherwise) {
+    if (text.starts_with('+'))
+        text.remove_prefix(1);
+    std::from_chars(text.data(), text.data() + text.size(), otherwise);
+    return otherwise;
+}
+
+/// Two lines: the code that says what a value is, and the value.
+struct Group {
+    int code;
+    std::string_view value;
+};
+
+Group groupAt(std::string_view dxf, std::size_t& at) {
+    const int code = numberOf(lineAt(dxf, at), -1);
+    return {code, lineAt(dxf, at)};
+}
+
+/// What a group of the code 0 begins: an entity, a block's begin or end, and so on.
+struct Record {
+    std::string_view section;
+    std::string_view kind;
+    std::size_t begin;
+    std::string_view text;
+
+    /// Of the last group of that code; empty without one.
+    std::string_view value(int code) const {
+        std::string_view found;
+        for (std::size_t at = 0; at < text.size();)
+            if (const Group group = groupAt(text, at); group.code == code)
+                found = group.value;
+        return found;
+    }
+    double number(int code, double otherwise = 0) const { return numberOf(value(code), otherwise); }
+    /// That of the codes 10, 20 and 30 is the first.
+    glm::dvec3 vector(int code, int step, double otherwise) const {
+        return {number(code, otherwise), number(code + step, otherwise),
+                number(code + 2 * step, otherwise)};
+    }
+};
+
+/// Calls `use` with the records of the sections that have something to draw.
+template <typename Use>
+void forEachRecord(std::string_view dxf, const Use& use) {
+    Record record{};
+    const auto finish = [&](std::size_t end) {
+        record.text = dxf.substr(record.begin, end - record.begin);
+        if (record.kind == "SECTION")
+            record.section = record.value(2);
+        else if (record.kind == "ENDSEC")
+            record.section = {};
+        else if (record.section == "BLOCKS" || record.section == "ENTITIES")
+            use(record);
+    };
+    for (std::size_t at = 0; at < dxf.size();) {
+        const std::size_t begin = at;
+        const Group group = groupAt(dxf, at);
+        if (group.code != 0)
+            continue;
+        finish(begin);
+        record.kind = group.value;
+        record.begin = begin;
+    }
+    finish(dxf.size());
+}
+
+bool isRead(std::string_view kind) {
+    constexpr std::array<std::string_view, 10> kKinds = {"BLOCK",  "ENDBLK", "INSERT", "POLYLINE",
+                                                         "LINE",   "3DLINE", "VERTEX", "SEQEND",
+                                                         "3DFACE", "EOF"};
+    return std::ranges::count(kKinds, kind) > 0;
+}
+
+/// How a block is put into the drawing.
+struct Insert {
+    explicit Insert(const Record& record)
+        : block(record.value(2)),
+          place(record.vector(10, 10, 0)),
+          scale(record.vector(41, 1, 1)),
+          columns(std::max(1.0, record.number(70, 1))),
+          rows(std::max(1.0, record.number(71, 1))),
+          columnStep(record.number(44)),
+          rowStep(record.number(45)),
+          isTurned(record.number(50) != 0 || record.number(210) != 0 || record.number(220) != 0 ||
+                   record.number(230, 1) < 0) {}
+
+    bool isRepeated() const { return columns * rows > 1; }
+    bool isMisplaced() const { return isTurned || columns * rows > kMostCopies; }
+
+    std::string_view block;
+    glm::dvec3 place, scale;
+    double columns, rows, columnStep, rowStep;
+    bool isTurned;
+};
+
+/// Where Assimp's scale * (point + place) - base is the format's place + scale * (point - base).
+std::string insertForAssimp(const Insert& insert, const glm::dvec3& offset,
+                            const glm::dvec3& base) {
+    const glm::dvec3 place = (insert.place + offset + base) / insert.scale - base;
+    return fmt::format("0\nINSERT\n2\n{}\n10\n{}\n20\n{}\n30\n{}\n41\n{}\n42\n{}\n43\n{}\n",
+                       insert.block, place.x, place.y, place.z, insert.scale.x, insert.scale.y,
+                       insert.scale.z);
+}
+
+std::string insertsForAssimp(const Insert& insert, const glm::dvec3& base) {
+    if (insert.isMisplaced())
+        return insertForAssimp(insert, glm::dvec3(0), base);
+    std::string text;
+    for (int row = 0; row < insert.rows; ++row)
+        for (int column = 0; column < insert.columns; ++column)
+            text += insertForAssimp(
+                insert, glm::dvec3(column * insert.columnStep, row * insert.rowStep, 0), base);
+    return text;
+}
+
+std::map<std::string_view, glm::dvec3> basesOf(std::string_view dxf) {
+    std::map<std::string_view, glm::dvec3> bases;
+    forEachRecord(dxf, [&](const Record& record) {
+        if (record.kind == "BLOCK")
+            bases[record.value(2)] = record.vector(10, 10, 0);
+    });
+    return bases;
+}
+
+/// A solid, a mesh of rows and columns, or a line that is drawn out to a height.
+bool isLostSurface(const Record& record) {
+    constexpr std::array<std::string_view, 13> kKinds = {
+        "SOLID",           "TRACE",       "MESH",           "3DSOLID",      "BODY",
+        "REGION",          "SURFACE",     "PLANESURFACE",   "SWEPTSURFACE", "LOFTEDSURFACE",
+        "EXTRUDEDSURFACE", "NURBSURFACE", "REVOLVEDSURFACE"};
+    constexpr std::array<std::string_view, 5> kLines = {"LINE", "ARC", "CIRCLE", "POLYLINE",
+                                                        "LWPOLYLINE"};
+    constexpr int kIsOfRows = 16;
+    return std::ranges::count(kKinds, record.kind) > 0 ||
+           (std::ranges::count(kLines, record.kind) > 0 && record.number(39) != 0) ||
+           (record.kind == "POLYLINE" && (numberOf(record.value(70), 0) & kIsOfRows) != 0);
+}
+
+}  // namespace
+
+std::optional<std::string> dxfForAssimp(std::string_view dxf) {
+    const std::map<std::string_view, glm::dvec3> bases = basesOf(dxf);
+    MendedText mended(dxf);
+    forEachRecord(dxf, [&](const Record& record) {
+        if (!isRead(record.kind))
+            mended.replace(record.begin, record.text.size(), "");
+        if (record.kind != "INSERT" || record.section != "ENTITIES")
+            return;
+        const Insert insert(record);
+        const auto block = bases.find(insert.block);
+        const glm::dvec3 base = block == bases.end() ? glm::dvec3(0) : block->second;
+        const bool isPlain = base == glm::dvec3(0) && insert.scale == glm::dvec3(1) &&
+                             !insert.isTurned && !insert.isRepeated();
+        if (!isPlain && insert.scale.x * insert.scale.y * insert.scale.z != 0)
+            mended.replace(record.begin, record.text.size(), insertsForAssimp(insert, base));
+    });
+    return mended.finish();
+}
+
+std::vector<std::string> dxfCaveats(std::string_view dxf) {
+    std::uint64_t misplaced = 0, surfaces = 0;
+    std::set<std::string_view> kinds;
+    forEachRecord(dxf, [&](const Record& record) {
+        if (record.kind == "INSERT" && record.section == "ENTITIES")
+            misplaced += Insert(record).isMisplaced() ? 1 : 0;
+        if (!isLostSurface(record))
+            return;
+        ++surfaces;
+        kinds.insert(record.kind);
+    });
+    std::vector<std::string> caveats;
+    if (misplaced > 0)
+        caveats.push_back(
+            fmt::format("{} blocks are not put as the file has them: turned, in a plane of their "
+                        "own or more than {} times; explode them before export",
+                        misplaced, kMostCopies));
+    if (surfaces > 0)
+        caveats.push_back(
+            fmt::format("left out {} surfaces of the kinds {}, which are not read: turn them into "
+                        "3DFACEs or polyface meshes before export",
+                        surfaces, fmt::join(kinds, ", ")));
+    return caveats;
+}
+
+}  // namespace eyrie::import

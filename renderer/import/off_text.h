@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace eyrie::import {
+
+/// An OFF file (Geomview) as Assimp 5.2 can read it, which refuses colours of vertices that are of
+/// three numbers: they are opaque. Nothing for one without.
+std::optional<std::string> offForAssimp(std::string_view off);
+
+/// For TriangleMesh::notes: colours of faces, faces of more corners than Assimp reads, and what
+/// follows those that are counted.
+std::vector<std::string> offCaveats(std::string_view off);
+
+}  // namespace eyrie::import

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/dxf_text.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fabric/box.h"
+#include "renderer/import/assimp_reader.h"
+#include "tests/renderer/mesh/temporary_folder.h"
+
+namespace eyrie::import {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A unit square of a corner at 5, 5, 0.
+constexpr std::string_view kFace =
+    "0\n3DFACE\n8\n0\n10\n5\n20\n5\n30\n0\n11\n6\n21\n5\n31\n0\n12\n6\n22\n6\n32\n0\n13\n5\n23\n6\n"
+    "33\n0\n";
+
+/// That square, and what else there is, in a block with its base at `base`, 0, 0, of which
+/// `inserts` is what the drawing has.
+std::string dxfOf(double base, std::string_view others, std::string_view inserts) {
+    return fmt::format(
+        "  0\nSECTION\n  2\nBLOCKS\n  0\nBLOCK\n  2\nB\n 10\n{}\n 20\n0\n 30\n0\n{}{}0\nENDBLK\n"
+        "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{}0\nENDSEC\n0\nEOF\n",
+        base, kFace, others, inserts);
+}
+
+struct Read {
+    fabric::Box bounds;
+    std::size_t triangles;
+    std::vector<std::string> notes;
+};
+
+Read read(const std::string& dxf) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.dxf"), dxf);
+    const auto mesh = readWithAssimp(folder.file("m.dxf"));
+    EXPECT_TRUE(mesh.ok()) << mesh.status();
+    if (!mesh.ok())
+        return {};
+    Read read{{}, mesh->triangles.size(), mesh->notes};
+    for (const fabric::Vec3& position : mesh->positions) read.bounds.grow(position);
+    return read;
+}
+
+TEST(DxfForAssimp, PutsBlocksWhereTheirScaleAndBaseHaveThem) {
+    struct Case {
+        double base;
+        std::string_view scale;
+        double least, most;  // x
+    };
+    for (const auto& [base, scale, least, most] :
+         {Case{0, "", 105, 106}, Case{0, "41\n2\n", 110, 112}, Case{0, "41\n-1\n", 94, 95},
+          Case{5, "", 100, 101}, Case{5, "41\n2\n", 100, 102}}) {
+        const Read found =
+            read(dxfOf(base, "", fmt::format("0\nINSERT\n2\nB\n10\n100\n{}", scale)));
+        EXPECT_EQ(found.bounds.min, fabric::Vec3(least, 5, 0)) << base << scale;
+        EXPECT_EQ(found.bounds.max, fabric::Vec3(most, 6, 0)) << base << scale;
+        EXPECT_THAT(found.notes, IsEmpty());
+    }
+}
+
+TEST(DxfForAssimp, RepeatsBlocksInRowsAndColumns) {
+    const Read found =
+        read(dxfOf(5, "", "0\nINSERT\n2\nB\n42\n2\n70\n3\n71\n2\n44\n10\n45\n100\n"));
+    EXPECT_EQ(found.triangles, 12U);
+    EXPECT_EQ(found.bounds.min, fabric::Vec3(0, 10, 0));
+    EXPECT_EQ(found.bounds.max, fabric::Vec3(21, 112, 0));
+    EXPECT_THAT(found.notes, IsEmpty());
+}
+
+TEST(DxfForAssimp, KeepsBlocksApartFromWhatIsNotReadInThem) {
+    const Read found =
+        read(dxfOf(5, "0\nHATCH\n2\nSOLID\n10\n77\n1\n{none\n",
+                   fmt::format("0\nINSERT\n2\nB\n10\n100\n0\nMTEXT\n1\n{{none\n{}", kFace)));
+    EXPECT_EQ(found.triangles, 4U);
+    EXPECT_EQ(found.bounds.max, fabric::Vec3(101, 6, 0));
+    EXPECT_THAT(found.notes, IsEmpty());
+}
+
+TEST(DxfForAssimp, LeavesAsTheyAreFilesThatAreReadRightly) {
+    EXPECT_FALSE(dxfForAssimp(dxfOf(0, "", "0\nINSERT\n2\nB\n10\n1\n50\n0\n70\n1\n")));
+    EXPECT_FALSE(dxfForAssimp(""));
+    EXPECT_FALSE(dxfForAssimp("0\nINSERT\n41\n2\n"));
+    EXPECT_FALSE(dxfForAssimp(dxfOf(0, "", "0\nINSERT\n2\nB\n41\n0\n"))) << "which has no area";
+}
+
+TEST(DxfCaveats, CountBlocksThatAreNotPutAsTheFileHasThem) {
+    const std::string insert = "0\nINSERT\n2\nB\n";
+    EXPECT_THAT(read(dxfOf(0, "", insert)).notes, IsEmpty());
+    for (const std::string_view other :
+         {"50\n90\n", "230\n-1\n", "210\n1\n230\n0\n", "70\n32767\n71\n32767\n"}) {
+        const Read found = read(dxfOf(0, "", insert + insert + std::string(other)));
+        EXPECT_EQ(found.triangles, 4U) << other;
+        EXPECT_THAT(found.notes, ElementsAre(HasSubstr("1 blocks are not put"))) << other;
+    }
+}
+
+TEST(DxfCaveats, NameTheSurfacesThatAreNotRead) {
+    const std::string entities =
+        fmt::format("{}{}", kFace,
+                    "0\nSOLID\n10\n5\n0\nSOLID\n10\n5\n0\n3DSOLID\n0\nTEXT\n0\nCIRCLE\n"
+                    "40\n5\n0\nLWPOLYLINE\n39\n3\n0\nPOLYLINE\n70\n17\n0\nSEQEND\n");
+    EXPECT_THAT(dxfCaveats(dxfOf(0, "", entities)),
+                ElementsAre(HasSubstr(
+                    "left out 5 surfaces of the kinds 3DSOLID, LWPOLYLINE, POLYLINE, SOLID,")));
+}
+
+}  // namespace
+}  // namespace eyrie::import
