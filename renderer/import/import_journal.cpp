@@ -5,12 +5,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
 
 #include "fabric/status.h"
+#include "fabric/writer_lock.h"
 
 namespace eyrie::import {
 namespace {
@@ -47,6 +47,25 @@ std::size_t readUpTo(int fd, void* out, std::size_t bytes, std::uint64_t offset)
     return have;
 }
 
+/// Who held the lock may have been done, and have removed the file, since it was opened: then
+/// another is made.
+absl::StatusOr<int> openLocked(const std::string& path) {
+    constexpr int kTries = 16;
+    for (int i = 0; i < kTries; ++i) {
+        const int fd = open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
+        if (fd < 0)
+            return fabric::writeError(path, "cannot be written", errno);
+        const fabric::WriterLock lock = fabric::takeWriterLock(path, fd);
+        if (fabric::mayWrite(lock))
+            return fd;
+        close(fd);
+        if (lock == fabric::WriterLock::Anothers)
+            break;
+    }
+    return absl::FailedPreconditionError(fmt::format(
+        "{}: another import into the same file is at work; wait for it, or stop it", path));
+}
+
 }  // namespace
 
 ImportJournal::ImportJournal(ImportJournal&& other) noexcept
@@ -62,13 +81,8 @@ ImportJournal::~ImportJournal() {
 
 absl::StatusOr<ImportJournal> ImportJournal::open(const std::string& path, std::uint64_t key,
                                                   bool startsOver) {
-    const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
-    if (fd < 0)
-        return fabric::writeError(path, "cannot be written", errno);
+    ASSIGN_OR_RETURN(const int fd, openLocked(path));
     ImportJournal journal(path, fd, key);
-    if (flock(fd, LOCK_EX | LOCK_NB) != 0)
-        return absl::FailedPreconditionError(fmt::format(
-            "{}: another import into the same file is at work; wait for it, or stop it", path));
     if (!startsOver)
         journal.read();
     if (!journal.isEmpty())

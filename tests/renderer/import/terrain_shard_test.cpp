@@ -266,6 +266,24 @@ TEST_F(TerrainShards, MayBeDoneTwiceAtTheSameTime) {
     EXPECT_EQ(folder_.files(), (std::vector<std::string>{"out.eyt", "whole.eyt"}));
 }
 
+/// Out of core a shard has one scratch: it is done once, or once more when it is whole.
+TEST_F(TerrainShards, MayBeDoneTwiceAtTheSameTimeOutOfCore) {
+    const terrain::HeightGrid posts = test::hardGrid(GridKind::Smooth, 700, 600, 1);
+    const std::string expected = whole(posts);
+    std::vector<std::thread> threads;
+    std::array<absl::Status, 8> statuses;
+    for (std::uint32_t k = 0; k < 8; ++k)
+        threads.emplace_back([&, k] {
+            statuses[k] = shard(posts, {k % 2, 2}, {.memoryBytes = 1});
+        });
+    for (std::thread& thread : threads) thread.join();
+    for (const absl::Status& status : statuses)
+        EXPECT_TRUE(status.ok() || absl::IsFailedPrecondition(status)) << status;
+    ASSERT_TRUE(merge(posts).ok());
+    EXPECT_TRUE(contents(out()) == expected);
+    EXPECT_EQ(folder_.files(), (std::vector<std::string>{"out.eyt", "whole.eyt"}));
+}
+
 /// Each looks for what killed writers have left, and must not be stopped by another that does.
 TEST_F(TerrainShards, FilesOfSeveralWritersAreMadeAtTheSameTime) {
     std::vector<std::thread> threads;
