@@ -28,10 +28,10 @@ absl::StatusOr<TerrainStages> TerrainStages::open(terrain::Scratch& scratch, std
             removeLeftovers(scratch.path());
         return TerrainStages(scratch, std::nullopt);
     }
-    std::error_code ignored;
-    const bool hasScratch = std::filesystem::exists(scratch.path(), ignored);
-    ASSIGN_OR_RETURN(ImportJournal journal, ImportJournal::open(journalPath(scratch.path()), key,
-                                                                startsOver || !hasScratch));
+    ASSIGN_OR_RETURN(ImportJournal journal,
+                     ImportJournal::open(journalPath(scratch.path()), key, startsOver));
+    if (!journal.isEmpty() && !scratch.takeUp(journal.resultBytes()))
+        RETURN_IF_ERROR(journal.clear());
     if (journal.isEmpty())
         unlink(scratch.path().c_str());
     return TerrainStages(scratch, std::move(journal));
@@ -50,8 +50,8 @@ absl::Status TerrainStages::run(const std::function<absl::Status()>& work, const
     RETURN_IF_ERROR(work());
     RETURN_IF_ERROR(kept());
     keeping_ = std::async(std::launch::async, [this, step, bytes = state.save()] {
-        absl::Status status = scratch_->flush();
-        return status.ok() ? journal_->add(step, bytes) : status;
+        const absl::StatusOr<std::uint64_t> flushed = scratch_->flush();
+        return flushed.ok() ? journal_->add(step, bytes, *flushed) : flushed.status();
     });
     return absl::OkStatus();
 }

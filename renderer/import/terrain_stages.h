@@ -21,7 +21,7 @@ namespace eyrie::import {
 class TerrainStages {
 public:
     /// `key` stands for all that the result depends on. What a killed job has left there is gone
-    /// on from if it was for the same, and removed if this one `startsOver`.
+    /// on from if it was for the same and is all there still, and removed if this one `startsOver`.
     /// Errors: ImportJournal's.
     static absl::StatusOr<TerrainStages> open(terrain::Scratch& scratch, std::uint64_t key,
                                               bool startsOver);

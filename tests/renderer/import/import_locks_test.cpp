@@ -55,7 +55,7 @@ TEST_F(ImportLocks, OfAJournalThatWasRemovedBeforeAreOfANewOne) {
         ASSERT_TRUE(opened.ok()) << opened.status();
         first.emplace(*std::move(opened));
     }
-    ASSERT_TRUE(first->add(0, std::vector<std::byte>(10)).ok());
+    ASSERT_TRUE(first->add(0, std::vector<std::byte>(10), 0).ok());
     beforeNextLock = [&] {
         first->remove();
         first.reset();
