@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include "fabric/partial_file.h"
 #include "fabric/status.h"
@@ -115,13 +114,10 @@ public:
     }
 
 private:
+    /// Without the pictures: their stages know by themselves what is still of use.
     std::uint64_t key() const {
-        const std::string text = fmt::format(
-            "{} {:x} {} {} {} {} {} {} {} {} {}", kImportVersion, source_.hash,
-            model_.frame.columns, model_.frame.rows, model_.frame.origin.x, model_.frame.origin.y,
-            model_.frame.perColumn.x, model_.frame.perColumn.y, model_.frame.perRow.x,
-            model_.frame.perRow.y, options_.errorMetres.value_or(-1));
-        return XXH64(text.data(), text.size(), 0);
+        return stagesKey(
+            identityOf(model_.frame, source_.hash, options_.errorMetres.value_or(-1), 0, 1), 0);
     }
 
     absl::Status makeLevels() {
@@ -189,8 +185,6 @@ private:
             report.notes.insert(report.notes.end(), notes.begin(), notes.end());
         return report;
     }
-
-    static constexpr int kImportVersion = 7;  ///< raise it when scratch or journal change
 
     HeightSource& posts_;
     ImagerySource* imagery_;

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #include "fabric/status.h"
 #include "renderer/import/dem_source.h"
@@ -62,20 +61,15 @@ public:
                 TerrainStages::removeLeftovers(scratch_.path());  // killed since it was whole
                 return report(part->sizeBytes(), true);
             }
-        ASSIGN_OR_RETURN(TerrainStages stages,
-                         TerrainStages::open(scratch_, key(), options_.startsOver));
+        ASSIGN_OR_RETURN(
+            TerrainStages stages,
+            TerrainStages::open(scratch_, stagesKey(identity_, shard_.index), options_.startsOver));
         const absl::StatusOr<std::uint64_t> sizeBytes = runStages(stages);
         RETURN_IF_ERROR(stages.end(sizeBytes.status()));
         return report(*sizeBytes, false);
     }
 
 private:
-    std::uint64_t key() const {
-        constexpr std::uint64_t kVersion = 4;  // raise it when scratch or journal change
-        const std::uint64_t seed = kVersion << 32 | shard_.index;
-        return XXH64(&identity_, sizeof identity_, seed);
-    }
-
     TerrainShardReport report(std::uint64_t sizeBytes, bool wasThere) const {
         std::uint64_t posts = 0;
         for (const std::uint32_t tile : plan_.tilesOf(shard_.index)) {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include "fabric/name_beside.h"
 #include "fabric/status.h"
@@ -20,6 +21,11 @@ std::string journalPath(const std::string& scratchPath) {
 }
 
 }  // namespace
+
+std::uint64_t stagesKey(const PartIdentity& identity, std::uint32_t shard) {
+    constexpr std::uint64_t kVersion = 8;  // raise it when scratch or journal change
+    return XXH64(&identity, sizeof identity, kVersion << 32 | shard);
+}
 
 absl::StatusOr<TerrainStages> TerrainStages::open(terrain::Scratch& scratch, std::uint64_t key,
                                                   bool startsOver) {

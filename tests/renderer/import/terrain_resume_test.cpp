@@ -10,7 +10,9 @@
 
 #include "renderer/import/geotiff_writer.h"
 #include "renderer/import/import_journal.h"
+#include "renderer/import/shard_part.h"
 #include "renderer/import/terrain_import.h"
+#include "renderer/import/terrain_stages.h"
 #include "renderer/import/terrain_synth.h"
 #include "tests/renderer/import/file_size_limit.h"
 #include "tests/renderer/import/terrain_fixture.h"
@@ -182,6 +184,20 @@ TEST_F(TerrainResume, StartsOverForOtherOptionsOrWhenToldSo) {
     begun_.clear();
     ASSERT_TRUE(import(out, control, {.memoryBytes = 1, .startsOver = true}).ok());
     EXPECT_EQ(begun_.front(), "reading");
+}
+
+TEST_F(TerrainResume, GoesOnWithWhatThisVersionHasDoneAlone) {
+    const std::string out = folder_.path("a.eyt");
+    ASSERT_FALSE(importUntil("building", out).ok());
+    const auto isJournalOf = [&](const PartIdentity& identity) {
+        const auto journal =
+            ImportJournal::open(out + ".scratch.journal", stagesKey(identity, 0), false);
+        return journal.ok() && !journal->isEmpty();
+    };
+    PartIdentity identity = identityOf(largeGrid().frame(), 77, -1, 0, 1);
+    EXPECT_TRUE(isJournalOf(identity));
+    identity.programVersion = {'9', '.', '9'};
+    EXPECT_FALSE(isJournalOf(identity));
 }
 
 TEST_F(TerrainResume, GoesOnAfterADamagedJournal) {
