@@ -103,8 +103,8 @@ public:
         ASSIGN_OR_RETURN(terrain::EytWriter writer, scratch_.fitsInMemory()
                                                         ? terrain::EytWriter::create(out_)
                                                         : terrain::EytWriter::resume(out_));
-        ASSIGN_OR_RETURN(TerrainStages stages,
-                         TerrainStages::open(scratch_, key(), options_.startsOver));
+        ASSIGN_OR_RETURN(TerrainStages stages, TerrainStages::open(scratch_, scratchPath(out_, ""),
+                                                                   key(), options_.startsOver));
         absl::StatusOr<TerrainImportReport> report = runStages(stages, writer);
         writer.keepUnfinished(stages.goesOnLater(report.status()));
         if (!stages.areKept() && (report.ok() || options_.startsOver))

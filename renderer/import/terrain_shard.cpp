@@ -63,7 +63,8 @@ public:
             }
         ASSIGN_OR_RETURN(
             TerrainStages stages,
-            TerrainStages::open(scratch_, stagesKey(identity_, shard_.index), options_.startsOver));
+            TerrainStages::open(scratch_, scratchPath(path_, ""),
+                                stagesKey(identity_, shard_.index), options_.startsOver));
         const absl::StatusOr<std::uint64_t> sizeBytes = runStages(stages);
         RETURN_IF_ERROR(stages.end(sizeBytes.status()));
         return report(*sizeBytes, false);

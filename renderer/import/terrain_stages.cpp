@@ -27,8 +27,11 @@ std::uint64_t stagesKey(const PartIdentity& identity, std::uint32_t shard) {
     return XXH64(&identity, sizeof identity, kVersion << 32 | shard);
 }
 
-absl::StatusOr<TerrainStages> TerrainStages::open(terrain::Scratch& scratch, std::uint64_t key,
+absl::StatusOr<TerrainStages> TerrainStages::open(terrain::Scratch& scratch,
+                                                  const std::string& beside, std::uint64_t key,
                                                   bool startsOver) {
+    if (beside != scratch.path())
+        removeLeftovers(beside);
     if (scratch.fitsInMemory()) {
         if (startsOver)
             removeLeftovers(scratch.path());

@@ -26,9 +26,11 @@ class TerrainStages {
 public:
     /// `key` is stagesKey's. What a killed job has left there is gone on from if it was for the
     /// same and is all there still, and removed if this one `startsOver`.
+    /// What one has left at `beside`, where it is without a folder for scratches, is removed where
+    /// that is elsewhere: nothing goes on from it.
     /// Errors: ImportJournal's.
-    static absl::StatusOr<TerrainStages> open(terrain::Scratch& scratch, std::uint64_t key,
-                                              bool startsOver);
+    static absl::StatusOr<TerrainStages> open(terrain::Scratch& scratch, const std::string& beside,
+                                              std::uint64_t key, bool startsOver);
 
     /// What a stage leaves in memory, as bytes; restore is false for bytes that do not fit.
     struct State {

@@ -250,10 +250,10 @@ void Scratch::fail(const char* what) {
     const int error = errno;
     absl::Status status = fabric::writeError(path_, what, error);
     if (absl::IsResourceExhausted(status))
-        status = absl::ResourceExhaustedError(
-            fmt::format("{}: {}: {}; free some space or name a folder on another disk with "
-                        "--scratch, then run the same command again: it goes on from here",
-                        path_, what, std::strerror(error)));
+        status = absl::ResourceExhaustedError(fmt::format(
+            "{}: {}: {}; free some space and run the same command again: it goes on from "
+            "here; or start over with --scratch on another disk",
+            path_, what, std::strerror(error)));
     fail(std::move(status));
 }
 

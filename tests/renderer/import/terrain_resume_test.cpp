@@ -243,6 +243,22 @@ TEST_F(TerrainResume, SaysWhatIsWrongWithTheScratchFolder) {
     EXPECT_TRUE(folder_.files().empty());
 }
 
+/// As it says itself where its disk is full.
+TEST_F(TerrainResume, MakesRoomWhereItStartsOverWithAScratchElsewhere) {
+    const std::string out = folder_.path("a.eyt");
+    std::filesystem::create_directory(folder_.path("scratch"));
+    ASSERT_FALSE(importUntil("building", out).ok());
+    ASSERT_TRUE(std::filesystem::exists(out + ".scratch"));
+    ImportControl control;
+    control.progress = [&](std::string_view, double) {
+        EXPECT_FALSE(std::filesystem::exists(out + ".scratch"));
+        EXPECT_FALSE(std::filesystem::exists(out + ".scratch.journal"));
+    };
+    const absl::Status status =
+        import(out, control, {.memoryBytes = 1, .scratchFolder = folder_.path("scratch")});
+    EXPECT_TRUE(status.ok()) << status;
+}
+
 TEST_F(TerrainResume, IsTheSameForAnyMemoryThreadsAndScratchFolder) {
     const std::string a = folder_.path("a.eyt");
     const std::string b = folder_.path("b.eyt");

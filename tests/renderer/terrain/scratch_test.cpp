@@ -164,7 +164,7 @@ TEST(Scratch, SaysThatTheDiskIsFullAndHowToGoOn) {
     scratch.write(place, pieceOf(100000, 3), 100000);
     const absl::Status status = scratch.flush().status();
     EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
-    EXPECT_NE(status.ToString().find("--scratch"), std::string::npos);
+    EXPECT_NE(status.ToString().find("start over with --scratch"), std::string::npos);
     EXPECT_EQ(scratch.status(), status);
 }
 
