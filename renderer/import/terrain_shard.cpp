@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
+#include "fabric/replaceable.h"
 #include "fabric/status.h"
 #include "renderer/import/dem_source.h"
 #include "renderer/import/elevation_reading.h"
@@ -170,9 +170,9 @@ private:
     terrain::VertexLevels vertexLevels_;
 };
 
-absl::Status checkShard(const Shard& shard) {
+absl::Status check(const std::string& out, const Shard& shard) {
     if (shard.count >= 1 && shard.count <= kMaxShards && shard.index < shard.count)
-        return absl::OkStatus();
+        return fabric::checkReplaceable(out);
     return absl::InvalidArgumentError(
         fmt::format("shard {}/{} does not exist; of N shards, at most {}, the first is 0/N and "
                     "the last N-1/N",
@@ -212,7 +212,7 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(HeightSource& posts,
                                                       const TerrainImportOptions& options,
                                                       const ImportControl& control) {
     const ThreadLimit threads(options.threads);
-    RETURN_IF_ERROR(checkShard(shard));
+    RETURN_IF_ERROR(check(out, shard));
     OpenImagery imagery;
     if (!options.imagery.empty()) {
         ASSIGN_OR_RETURN(imagery,
@@ -233,14 +233,12 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(const std::vector<std::str
                                                       const std::string& out, const Shard& shard,
                                                       const TerrainImportOptions& options,
                                                       const ImportControl& control) {
-    RETURN_IF_ERROR(checkShard(shard));
+    RETURN_IF_ERROR(check(out, shard));
     const ThreadLimit threads(options.threads);
     const std::string folder = partsFolder(out);
     RETURN_IF_ERROR(makeFolder(folder));
-    absl::StatusOr<DemSource> opened = openShared(dems, shard, folder, control);
-    if (!opened.ok())
-        rmdir(folder.c_str());  // unless there is something in it
-    ASSIGN_OR_RETURN(const DemSource source, std::move(opened));
+    // Should that fail, an empty folder stays: others may be at work that count on it.
+    ASSIGN_OR_RETURN(const DemSource source, openShared(dems, shard, folder, control));
     const std::string name = dems.size() == 1
                                  ? dems.front()
                                  : fmt::format("{} and {} more", dems.front(), dems.size() - 1);

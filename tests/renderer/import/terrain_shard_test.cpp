@@ -284,6 +284,27 @@ TEST_F(TerrainShards, MayBeDoneTwiceAtTheSameTimeOutOfCore) {
     EXPECT_EQ(folder_.files(), (std::vector<std::string>{"out.eyt", "whole.eyt"}));
 }
 
+TEST_F(TerrainShards, DoNotMindOneThatFailsAtOnce) {
+    const terrain::HeightGrid posts = test::hardGrid(GridKind::Smooth, 600, 40, 1);
+    const std::vector<std::string> none = {folder_.path("none.tif")};
+    ImportControl control;
+    control.progress = [&](std::string_view stage, double) {
+        if (stage == "reading") {
+            EXPECT_FALSE(importTerrainShard(none, out(), {1, 2}, {}, {}).ok());
+        }
+    };
+    const absl::Status status = shard(posts, {0, 2}, {}, control);
+    EXPECT_TRUE(status.ok()) << status;
+}
+
+TEST_F(TerrainShards, RefuseAFolderAsOutputBeforeTheWork) {
+    std::filesystem::create_directory(out());
+    const absl::Status status = shard(test::hardGrid(GridKind::Smooth, 20, 20, 1), {0, 2});
+    EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
+    EXPECT_THAT(status.ToString(), HasSubstr(out()));
+    EXPECT_FALSE(std::filesystem::exists(partsFolder(out())));
+}
+
 /// Each looks for what killed writers have left, and must not be stopped by another that does.
 TEST_F(TerrainShards, FilesOfSeveralWritersAreMadeAtTheSameTime) {
     std::vector<std::thread> threads;
