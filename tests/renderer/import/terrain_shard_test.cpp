@@ -358,7 +358,7 @@ TEST_F(Merging, RefusesPartsOfOtherSourcesAndOptionsAndSaysWhatDiffers) {
         EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
         EXPECT_THAT(status.ToString(), AllOf(HasSubstr("shard-0-of-3"), HasSubstr(what)));
     };
-    refused(merge(posts_, kMerge, 8), "checksum was 0000000000000007");
+    refused(merge(posts_, kMerge, 8), "or the same in another order: their checksum was 0");
     refused(merge(posts_, {.errorMetres = 3}), "no --error, now it is --error 3");
     terrain::HeightGrid moved = posts_;
     moved.origin.x += 1;
@@ -367,6 +367,13 @@ TEST_F(Merging, RefusesPartsOfOtherSourcesAndOptionsAndSaysWhatDiffers) {
     EXPECT_TRUE(std::filesystem::exists(part(0, 3)));
     EXPECT_FALSE(std::filesystem::exists(out()));
     EXPECT_TRUE(merge(posts_).ok());
+}
+
+/// What the order of pictures is decides which of them is seen.
+TEST_F(Merging, TellsThatThePicturesMayBeTheSameInAnotherOrder) {
+    const PartIdentity found = identityOf(posts_.frame(), 7, -1, 1, 3);
+    EXPECT_THAT(difference(found, identityOf(posts_.frame(), 7, -1, 2, 3)),
+                HasSubstr("other pictures, or the same in another order"));
 }
 
 TEST_F(Merging, RefusesPartsOfAnotherVersion) {
