@@ -228,7 +228,7 @@ absl::StatusOr<TerrainImportReport> importTerrain(HeightSource& posts, const Ter
                                 options, control)
                          .run());
     if (parts)
-        parts->remove();
+        for (std::string& note : parts->remove()) report.notes.push_back(std::move(note));
     const std::vector<std::string> findings = posts.findings();
     report.notes.insert(report.notes.begin(), findings.begin(), findings.end());
     report.notes.insert(report.notes.end(), imagery.notes.begin(), imagery.notes.end());

@@ -427,6 +427,16 @@ TEST_F(Merging, NamesADamagedPart) {
     EXPECT_TRUE(merge(posts_).ok());
 }
 
+TEST_F(Merging, SaysWhatItLeavesOfOtherSplits) {
+    for (const char* name : {"facts-1-of-5", "shard-1-of-5.scratch"})
+        std::ofstream(partsFolder(out()) + "/" + name) << "of another split";
+    GridHeightSource posts(posts_);
+    const auto report = importTerrain(posts, source(), out(), kMerge, {});
+    ASSERT_TRUE(report.ok()) << report.status();
+    EXPECT_THAT(report->notes,
+                testing::Contains(HasSubstr("out.eyt.parts: still has facts-1-of-5 and 1 more")));
+}
+
 TEST_F(Merging, LeavesThePartsWhenItIsCalledOff) {
     std::stop_source stop;
     ImportControl control;
