@@ -99,11 +99,11 @@ void TerrainStages::removeLeftovers(const std::string& scratchPath) {
     if (!fs::exists(fs::symlink_status(scratchPath, ignored)) &&
         !fs::exists(fs::symlink_status(journalOf, ignored)))
         return;
-    absl::StatusOr<ImportJournal> journal = ImportJournal::open(journalOf, 0, true);
-    if (!journal.ok())
+    const absl::StatusOr<ImportJournal> journal = ImportJournal::open(journalOf, 0, true);
+    if (!journal.ok() && !absl::IsResourceExhausted(journal.status()))
         return;  // another's
     unlink(scratchPath.c_str());
-    journal->remove();
+    unlink(journalOf.c_str());
 }
 
 }  // namespace eyrie::import

@@ -259,6 +259,14 @@ TEST_F(TerrainResume, MakesRoomWhereItStartsOverWithAScratchElsewhere) {
     EXPECT_TRUE(status.ok()) << status;
 }
 
+TEST_F(TerrainResume, MakesRoomWhereThereIsNotEvenAnyForAJournal) {
+    const std::string scratch = folder_.path("a.eyt.scratch");
+    std::ofstream(scratch) << "posts";
+    const test::FileSizeLimit full(0);
+    TerrainStages::removeLeftovers(scratch);
+    EXPECT_TRUE(folder_.files().empty());
+}
+
 TEST_F(TerrainResume, IsTheSameForAnyMemoryThreadsAndScratchFolder) {
     const std::string a = folder_.path("a.eyt");
     const std::string b = folder_.path("b.eyt");
