@@ -65,6 +65,20 @@ TerrainImportReport reportOf(const terrain::EytIndex& index, double postMetres,
         .notes = notesOnHeights(index)};
 }
 
+/// Where parts are missing they may have been merged: of an output that is there its sources are
+/// known, but not the options.
+std::vector<std::string> notesOnOutput(const std::string& out, const PartIdentity& identity) {
+    const auto file = terrain::EytFile::open(out);
+    if (!file.ok() || (*file)->index().sourceHash != identity.sourceHash ||
+        (*file)->index().quadtree.columns() != identity.columns ||
+        (*file)->index().quadtree.rows() != identity.rows)
+        return {};
+    return {
+        fmt::format("{} is there, made of these sources: if it was with these options, too, "
+                    "nothing is left to be done",
+                    out)};
+}
+
 absl::Status explained(const absl::Status& error, const std::vector<std::string>& findings) {
     std::string message(error.message());
     for (const std::string& finding : findings) message += "; " + finding;
@@ -221,7 +235,11 @@ absl::StatusOr<TerrainImportReport> importTerrain(HeightSource& posts, const Ter
         const PartIdentity identity =
             identityOf(posts.frame(), source.hash, options.errorMetres.value_or(-1),
                        pictureFingerprint(options.imagery), 1);
-        ASSIGN_OR_RETURN(parts, PartSet::open(out, identity, texturesOf(imagery.texels.get())));
+        absl::StatusOr<PartSet> opened =
+            PartSet::open(out, identity, texturesOf(imagery.texels.get()));
+        if (absl::IsNotFound(opened.status()))
+            return explained(opened.status(), notesOnOutput(out, identity));
+        ASSIGN_OR_RETURN(parts, std::move(opened));
     }
     ASSIGN_OR_RETURN(TerrainImportReport report,
                      TerrainJob(posts, imagery.texels.get(), parts ? &*parts : nullptr, source, out,

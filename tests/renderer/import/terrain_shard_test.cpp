@@ -353,6 +353,14 @@ TEST_F(Merging, NamesAllShardsThatAreMissing) {
     EXPECT_TRUE(absl::IsNotFound(merge(posts_)));
 }
 
+TEST_F(Merging, SaysThatTheOutputIsThereWhereThePartsAreGone) {
+    ASSERT_TRUE(merge(posts_).ok());
+    const absl::Status again = merge(posts_);
+    EXPECT_TRUE(absl::IsNotFound(again)) << again;
+    EXPECT_THAT(again.ToString(), HasSubstr(out() + " is there, made of these sources"));
+    EXPECT_THAT(merge(posts_, kMerge, 8).ToString(), testing::Not(HasSubstr("these sources")));
+}
+
 TEST_F(Merging, RefusesPartsOfOtherSourcesAndOptionsAndSaysWhatDiffers) {
     const auto refused = [&](const absl::Status& status, const char* what) {
         EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
