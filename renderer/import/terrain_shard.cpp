@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "fabric/replaceable.h"
 #include "fabric/status.h"
@@ -24,6 +25,12 @@
 
 namespace eyrie::import {
 namespace {
+
+absl::Status makeFolder(const std::string& folder) {
+    if (mkdir(folder.c_str(), 0755) == 0 || errno == EEXIST)
+        return absl::OkStatus();
+    return fabric::writeError(folder, "cannot be made", errno);
+}
 
 /// One shard: what it holds, and its stages. Rasters are of the whole grid, filled where the shard
 /// has something to do with it.
@@ -106,6 +113,8 @@ private:
 
     absl::StatusOr<std::uint64_t> runStages(TerrainStages& stages) {
         RETURN_IF_ERROR(stages.run([&] { return read(); }, readingState(posts_, model_)));
+        // Another shard that could not begin may have removed it, while it was empty.
+        RETURN_IF_ERROR(makeFolder(partsFolder(out_)));
         ASSIGN_OR_RETURN(model_.statistics, shareFacts(out_, identity_, plan_, shard_,
                                                        model_.statistics, posts_, control_));
         if (model_.statistics.min > model_.statistics.max)
@@ -179,12 +188,6 @@ absl::Status check(const std::string& out, const Shard& shard) {
                     shard.index, shard.count, kMaxShards));
 }
 
-absl::Status makeFolder(const std::string& folder) {
-    if (mkdir(folder.c_str(), 0755) == 0 || errno == EEXIST)
-        return absl::OkStatus();
-    return fabric::writeError(folder, "cannot be made", errno);
-}
-
 /// Notes the hashes of large files for openDems. Each shard begins elsewhere, so that those that
 /// start together do not all read the same file.
 absl::Status noteHashes(const std::vector<std::string>& dems, const Shard& shard,
@@ -237,8 +240,10 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(const std::vector<std::str
     const ThreadLimit threads(options.threads);
     const std::string folder = partsFolder(out);
     RETURN_IF_ERROR(makeFolder(folder));
-    // Should that fail, an empty folder stays: others may be at work that count on it.
-    ASSIGN_OR_RETURN(const DemSource source, openShared(dems, shard, folder, control));
+    absl::StatusOr<DemSource> opened = openShared(dems, shard, folder, control);
+    if (!opened.ok())
+        rmdir(folder.c_str());  // unless there is something in it
+    ASSIGN_OR_RETURN(const DemSource source, std::move(opened));
     const std::string name = dems.size() == 1
                                  ? dems.front()
                                  : fmt::format("{} and {} more", dems.front(), dems.size() - 1);
