@@ -10,12 +10,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "fabric/name_beside.h"
 #include "fabric/status.h"
+#include "fabric/writer_lock.h"
 
 namespace eyrie::fabric {
 namespace {
@@ -24,12 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kMark = ".partial-";
 constexpr std::size_t kDigits = 16;
-
-/// Takes the lock that a living writer holds.
-bool lock(int fd) {
-    struct stat status {};
-    return flock(fd, LOCK_EX | LOCK_NB) == 0 && fstat(fd, &status) == 0 && status.st_nlink > 0;
-}
 
 std::string endingOf(std::uint64_t number) {
     return fmt::format("{}{:0{}x}", kMark, number, kDigits);
@@ -52,7 +45,7 @@ void removeIfAbandoned(const fs::path& partial) {
     const int fd = open(partial.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
     if (fd < 0)
         return;
-    if (lock(fd))
+    if (takeWriterLock(partial.string(), fd) == WriterLock::Taken)
         unlink(partial.c_str());
     close(fd);
 }
@@ -83,9 +76,8 @@ absl::StatusOr<PartialFile> createPartial(const std::string& path) {
         const int fd = open(partial.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (fd < 0)
             return writeError(path, "cannot create it", errno);
-        errno = 0;
         // Where a file system has no locks, nobody can take it for abandoned either.
-        if (lock(fd) || errno == ENOLCK || errno == EOPNOTSUPP)
+        if (mayWrite(takeWriterLock(partial, fd)))
             return PartialFile{std::move(partial), fd};
         unlink(partial.c_str());
         close(fd);

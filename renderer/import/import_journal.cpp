@@ -5,19 +5,19 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
 
 #include "fabric/status.h"
+#include "fabric/writer_lock.h"
 
 namespace eyrie::import {
 namespace {
 
 struct Header {
     std::array<char, 8> magic = {'E', 'Y', 'R', 'I', 'E', 'J', 'N', 'L'};
-    std::uint64_t version = 2;
+    std::uint64_t version = 3;
     std::uint64_t key = 0;
 
     bool operator==(const Header&) const = default;
@@ -26,11 +26,12 @@ struct Header {
 struct RecordHeader {
     std::uint64_t step = 0;
     std::uint64_t bytes = 0;
-    std::uint64_t checksum = 0;  ///< XXH64 of the state, seeded with the step
+    std::uint64_t resultBytes = 0;
+    std::uint64_t checksum = 0;  ///< XXH64 of the state, seeded with that of what is above
 };
 
-std::uint64_t checksumOf(std::uint64_t step, std::span<const std::byte> state) {
-    return XXH64(state.data(), state.size(), step);
+std::uint64_t checksumOf(const RecordHeader& record, std::span<const std::byte> state) {
+    return XXH64(state.data(), state.size(), XXH64(&record, offsetof(RecordHeader, checksum), 0));
 }
 
 std::size_t readUpTo(int fd, void* out, std::size_t bytes, std::uint64_t offset) {
@@ -45,6 +46,25 @@ std::size_t readUpTo(int fd, void* out, std::size_t bytes, std::uint64_t offset)
         have += static_cast<std::size_t>(got);
     }
     return have;
+}
+
+/// Who held the lock may have been done, and have removed the file, since it was opened: then
+/// another is made.
+absl::StatusOr<int> openLocked(const std::string& path) {
+    constexpr int kTries = 16;
+    for (int i = 0; i < kTries; ++i) {
+        const int fd = open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
+        if (fd < 0)
+            return fabric::writeError(path, "cannot be written", errno);
+        const fabric::WriterLock lock = fabric::takeWriterLock(path, fd);
+        if (fabric::mayWrite(lock))
+            return fd;
+        close(fd);
+        if (lock == fabric::WriterLock::Anothers)
+            break;
+    }
+    return absl::FailedPreconditionError(fmt::format(
+        "{}: another import into the same file is at work; wait for it, or stop it", path));
 }
 
 }  // namespace
@@ -62,13 +82,8 @@ ImportJournal::~ImportJournal() {
 
 absl::StatusOr<ImportJournal> ImportJournal::open(const std::string& path, std::uint64_t key,
                                                   bool startsOver) {
-    const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
-    if (fd < 0)
-        return fabric::writeError(path, "cannot be written", errno);
+    ASSIGN_OR_RETURN(const int fd, openLocked(path));
     ImportJournal journal(path, fd, key);
-    if (flock(fd, LOCK_EX | LOCK_NB) != 0)
-        return absl::FailedPreconditionError(fmt::format(
-            "{}: another import into the same file is at work; wait for it, or stop it", path));
     if (!startsOver)
         journal.read();
     if (!journal.isEmpty())
@@ -95,9 +110,10 @@ void ImportJournal::read() {
             break;
         std::vector<std::byte> state(record.bytes);
         if (readUpTo(fd_, state.data(), state.size(), first) != state.size() ||
-            checksumOf(record.step, state) != record.checksum)
+            checksumOf(record, state) != record.checksum)
             break;
-        steps_[static_cast<std::uint32_t>(record.step)] = {offset, std::move(state)};
+        steps_[static_cast<std::uint32_t>(record.step)] = {offset, record.resultBytes,
+                                                           std::move(state)};
         offset = first + record.bytes;
     }
     if (ftruncate(fd_, static_cast<off_t>(steps_.empty() ? 0 : offset)) == 0)
@@ -107,6 +123,10 @@ void ImportJournal::read() {
 const std::vector<std::byte>* ImportJournal::find(std::uint32_t step) const {
     const auto found = steps_.find(step);
     return found == steps_.end() ? nullptr : &found->second.state;
+}
+
+std::uint64_t ImportJournal::resultBytes() const {
+    return steps_.empty() ? 0 : steps_.rbegin()->second.resultBytes;
 }
 
 absl::Status ImportJournal::dropFrom(std::uint32_t step) {
@@ -132,8 +152,10 @@ absl::Status ImportJournal::append(std::span<const std::byte> bytes) {
     return absl::OkStatus();
 }
 
-absl::Status ImportJournal::add(std::uint32_t step, std::span<const std::byte> state) {
-    const RecordHeader record{step, state.size(), checksumOf(step, state)};
+absl::Status ImportJournal::add(std::uint32_t step, std::span<const std::byte> state,
+                                std::uint64_t resultBytes) {
+    RecordHeader record{step, state.size(), resultBytes};
+    record.checksum = checksumOf(record, state);
     RETURN_IF_ERROR(append(std::as_bytes(std::span(&record, 1))));
     RETURN_IF_ERROR(append(state));
     if (fsync(fd_) != 0)

@@ -82,6 +82,24 @@ absl::Status missing(const std::string& folder, const std::vector<std::uint32_t>
         fmt::format("{}: not all parts are there; run the import with --shard {}", folder, list));
 }
 
+/// Unless there is something else in it: then what to say of that.
+std::vector<std::string> removeFolder(const std::string& folder) {
+    if (rmdir(folder.c_str()) == 0)
+        return {};
+    std::set<std::string> names;
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error))
+        names.insert(entry->path().filename().string());
+    if (names.empty())
+        return {};
+    const std::string more = names.size() == 1 ? "" : fmt::format(" and {} more", names.size() - 1);
+    return {
+        fmt::format("{}: still has {}{}, of another split or of a shard that is at work; "
+                    "remove the folder once none is",
+                    folder, *names.begin(), more)};
+}
+
 }  // namespace
 
 absl::StatusOr<PartSet> PartSet::open(const std::string& out, PartIdentity identity,
@@ -162,7 +180,7 @@ absl::StatusOr<TexturePiece> PartSet::readTexture(std::uint32_t texture,
     return parts_[plan_.ownerOfTexture(texture)].readTexture(texture, halfTexels);
 }
 
-void PartSet::remove() {
+std::vector<std::string> PartSet::remove() {
     const auto shards = static_cast<std::uint32_t>(parts_.size());
     parts_.clear();
     for (std::uint32_t index = 0; index < shards; ++index) {
@@ -176,7 +194,7 @@ void PartSet::remove() {
         fabric::removeAbandoned(facts);
     }
     removeNotedHashes(partsFolder(out_));
-    rmdir(partsFolder(out_).c_str());  // unless there is something else in it
+    return removeFolder(partsFolder(out_));
 }
 
 }  // namespace eyrie::import

@@ -39,8 +39,9 @@ public:
     /// Errors: PartFile's.
     absl::StatusOr<TexturePiece> readTexture(std::uint32_t texture, std::size_t halfTexels) const;
 
-    /// Removes the parts and what belongs to them: the import is done.
-    void remove();
+    /// Removes the parts and what belongs to them: the import is done. Returns what there is to be
+    /// said of what stays in their folder, as of shards of another split.
+    std::vector<std::string> remove();
 
 private:
     PartSet(std::string out, ShardPlan plan) : out_(std::move(out)), plan_(std::move(plan)) {}

@@ -108,12 +108,14 @@ std::string difference(const PartIdentity& found, const PartIdentity& expected) 
     if (found.frame != expected.frame)
         return "made from sources whose posts stand elsewhere";
     if (found.sourceHash != expected.sourceHash)
-        return fmt::format("made from other sources: their checksum was {:016x}, now it is {:016x}",
-                           found.sourceHash, expected.sourceHash);
+        return fmt::format(
+            "made from other sources, or the same in another order: their "
+            "checksum was {:016x}, now it is {:016x}",
+            found.sourceHash, expected.sourceHash);
     if (found.pictures != expected.pictures)
         return found.pictures == 0      ? "made without --imagery"
                : expected.pictures == 0 ? "made with --imagery"
-                                        : "made with other pictures";
+                                        : "made with other pictures, or the same in another order";
     return "";
 }
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include "fabric/partial_file.h"
 #include "fabric/status.h"
@@ -66,6 +65,20 @@ TerrainImportReport reportOf(const terrain::EytIndex& index, double postMetres,
         .notes = notesOnHeights(index)};
 }
 
+/// Where parts are missing they may have been merged: of an output that is there its sources are
+/// known, but not the options.
+std::vector<std::string> notesOnOutput(const std::string& out, const PartIdentity& identity) {
+    const auto file = terrain::EytFile::open(out);
+    if (!file.ok() || (*file)->index().sourceHash != identity.sourceHash ||
+        (*file)->index().quadtree.columns() != identity.columns ||
+        (*file)->index().quadtree.rows() != identity.rows)
+        return {};
+    return {
+        fmt::format("{} is there, made of these sources: if it was with these options, too, "
+                    "nothing is left to be done",
+                    out)};
+}
+
 absl::Status explained(const absl::Status& error, const std::vector<std::string>& findings) {
     std::string message(error.message());
     for (const std::string& finding : findings) message += "; " + finding;
@@ -104,8 +117,8 @@ public:
         ASSIGN_OR_RETURN(terrain::EytWriter writer, scratch_.fitsInMemory()
                                                         ? terrain::EytWriter::create(out_)
                                                         : terrain::EytWriter::resume(out_));
-        ASSIGN_OR_RETURN(TerrainStages stages,
-                         TerrainStages::open(scratch_, key(), options_.startsOver));
+        ASSIGN_OR_RETURN(TerrainStages stages, TerrainStages::open(scratch_, scratchPath(out_, ""),
+                                                                   key(), options_.startsOver));
         absl::StatusOr<TerrainImportReport> report = runStages(stages, writer);
         writer.keepUnfinished(stages.goesOnLater(report.status()));
         if (!stages.areKept() && (report.ok() || options_.startsOver))
@@ -115,13 +128,10 @@ public:
     }
 
 private:
+    /// Without the pictures: their stages know by themselves what is still of use.
     std::uint64_t key() const {
-        const std::string text = fmt::format(
-            "{} {:x} {} {} {} {} {} {} {} {} {}", kImportVersion, source_.hash,
-            model_.frame.columns, model_.frame.rows, model_.frame.origin.x, model_.frame.origin.y,
-            model_.frame.perColumn.x, model_.frame.perColumn.y, model_.frame.perRow.x,
-            model_.frame.perRow.y, options_.errorMetres.value_or(-1));
-        return XXH64(text.data(), text.size(), 0);
+        return stagesKey(
+            identityOf(model_.frame, source_.hash, options_.errorMetres.value_or(-1), 0, 1), 0);
     }
 
     absl::Status makeLevels() {
@@ -190,8 +200,6 @@ private:
         return report;
     }
 
-    static constexpr int kImportVersion = 7;  ///< raise it when scratch or journal change
-
     HeightSource& posts_;
     ImagerySource* imagery_;
     const PartSet* parts_;
@@ -227,14 +235,18 @@ absl::StatusOr<TerrainImportReport> importTerrain(HeightSource& posts, const Ter
         const PartIdentity identity =
             identityOf(posts.frame(), source.hash, options.errorMetres.value_or(-1),
                        pictureFingerprint(options.imagery), 1);
-        ASSIGN_OR_RETURN(parts, PartSet::open(out, identity, texturesOf(imagery.texels.get())));
+        absl::StatusOr<PartSet> opened =
+            PartSet::open(out, identity, texturesOf(imagery.texels.get()));
+        if (absl::IsNotFound(opened.status()))
+            return explained(opened.status(), notesOnOutput(out, identity));
+        ASSIGN_OR_RETURN(parts, std::move(opened));
     }
     ASSIGN_OR_RETURN(TerrainImportReport report,
                      TerrainJob(posts, imagery.texels.get(), parts ? &*parts : nullptr, source, out,
                                 options, control)
                          .run());
     if (parts)
-        parts->remove();
+        for (std::string& note : parts->remove()) report.notes.push_back(std::move(note));
     const std::vector<std::string> findings = posts.findings();
     report.notes.insert(report.notes.begin(), findings.begin(), findings.end());
     report.notes.insert(report.notes.end(), imagery.notes.begin(), imagery.notes.end());

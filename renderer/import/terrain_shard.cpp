@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <xxhash.h>
 
+#include "fabric/replaceable.h"
 #include "fabric/status.h"
 #include "renderer/import/dem_source.h"
 #include "renderer/import/elevation_reading.h"
@@ -25,6 +25,12 @@
 
 namespace eyrie::import {
 namespace {
+
+absl::Status makeFolder(const std::string& folder) {
+    if (mkdir(folder.c_str(), 0755) == 0 || errno == EEXIST)
+        return absl::OkStatus();
+    return fabric::writeError(folder, "cannot be made", errno);
+}
 
 /// One shard: what it holds, and its stages. Rasters are of the whole grid, filled where the shard
 /// has something to do with it.
@@ -62,20 +68,16 @@ public:
                 TerrainStages::removeLeftovers(scratch_.path());  // killed since it was whole
                 return report(part->sizeBytes(), true);
             }
-        ASSIGN_OR_RETURN(TerrainStages stages,
-                         TerrainStages::open(scratch_, key(), options_.startsOver));
+        ASSIGN_OR_RETURN(
+            TerrainStages stages,
+            TerrainStages::open(scratch_, scratchPath(path_, ""),
+                                stagesKey(identity_, shard_.index), options_.startsOver));
         const absl::StatusOr<std::uint64_t> sizeBytes = runStages(stages);
         RETURN_IF_ERROR(stages.end(sizeBytes.status()));
         return report(*sizeBytes, false);
     }
 
 private:
-    std::uint64_t key() const {
-        constexpr std::uint64_t kVersion = 4;  // raise it when scratch or journal change
-        const std::uint64_t seed = kVersion << 32 | shard_.index;
-        return XXH64(&identity_, sizeof identity_, seed);
-    }
-
     TerrainShardReport report(std::uint64_t sizeBytes, bool wasThere) const {
         std::uint64_t posts = 0;
         for (const std::uint32_t tile : plan_.tilesOf(shard_.index)) {
@@ -111,6 +113,8 @@ private:
 
     absl::StatusOr<std::uint64_t> runStages(TerrainStages& stages) {
         RETURN_IF_ERROR(stages.run([&] { return read(); }, readingState(posts_, model_)));
+        // Another shard that could not begin may have removed it, while it was empty.
+        RETURN_IF_ERROR(makeFolder(partsFolder(out_)));
         ASSIGN_OR_RETURN(model_.statistics, shareFacts(out_, identity_, plan_, shard_,
                                                        model_.statistics, posts_, control_));
         if (model_.statistics.min > model_.statistics.max)
@@ -175,19 +179,13 @@ private:
     terrain::VertexLevels vertexLevels_;
 };
 
-absl::Status checkShard(const Shard& shard) {
+absl::Status check(const std::string& out, const Shard& shard) {
     if (shard.count >= 1 && shard.count <= kMaxShards && shard.index < shard.count)
-        return absl::OkStatus();
+        return fabric::checkReplaceable(out);
     return absl::InvalidArgumentError(
         fmt::format("shard {}/{} does not exist; of N shards, at most {}, the first is 0/N and "
                     "the last N-1/N",
                     shard.index, shard.count, kMaxShards));
-}
-
-absl::Status makeFolder(const std::string& folder) {
-    if (mkdir(folder.c_str(), 0755) == 0 || errno == EEXIST)
-        return absl::OkStatus();
-    return fabric::writeError(folder, "cannot be made", errno);
 }
 
 /// Notes the hashes of large files for openDems. Each shard begins elsewhere, so that those that
@@ -217,7 +215,7 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(HeightSource& posts,
                                                       const TerrainImportOptions& options,
                                                       const ImportControl& control) {
     const ThreadLimit threads(options.threads);
-    RETURN_IF_ERROR(checkShard(shard));
+    RETURN_IF_ERROR(check(out, shard));
     OpenImagery imagery;
     if (!options.imagery.empty()) {
         ASSIGN_OR_RETURN(imagery,
@@ -238,7 +236,7 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(const std::vector<std::str
                                                       const std::string& out, const Shard& shard,
                                                       const TerrainImportOptions& options,
                                                       const ImportControl& control) {
-    RETURN_IF_ERROR(checkShard(shard));
+    RETURN_IF_ERROR(check(out, shard));
     const ThreadLimit threads(options.threads);
     const std::string folder = partsFolder(out);
     RETURN_IF_ERROR(makeFolder(folder));

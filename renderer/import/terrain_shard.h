@@ -35,7 +35,8 @@ struct TerrainShardReport {
 ///
 /// Stages reported: checking, reading, surveying, measuring, joining, building, imagery. Errors:
 /// those of importTerrain, shareFacts, PartWriter; FailedPrecondition where the same shard is at
-/// work on the same scratch; InvalidArgument for a shard that is none of its count.
+/// work on the same scratch; InvalidArgument for a shard that is none of its count, and where `out`
+/// is no file.
 absl::StatusOr<TerrainShardReport> importTerrainShard(const std::vector<std::string>& dems,
                                                       const std::string& out, const Shard& shard,
                                                       const TerrainImportOptions& options,

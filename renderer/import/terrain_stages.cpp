@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include "fabric/name_beside.h"
 #include "fabric/status.h"
@@ -21,17 +22,25 @@ std::string journalPath(const std::string& scratchPath) {
 
 }  // namespace
 
-absl::StatusOr<TerrainStages> TerrainStages::open(terrain::Scratch& scratch, std::uint64_t key,
+std::uint64_t stagesKey(const PartIdentity& identity, std::uint32_t shard) {
+    constexpr std::uint64_t kVersion = 8;  // raise it when scratch or journal change
+    return XXH64(&identity, sizeof identity, kVersion << 32 | shard);
+}
+
+absl::StatusOr<TerrainStages> TerrainStages::open(terrain::Scratch& scratch,
+                                                  const std::string& beside, std::uint64_t key,
                                                   bool startsOver) {
+    if (beside != scratch.path())
+        removeLeftovers(beside);
     if (scratch.fitsInMemory()) {
         if (startsOver)
             removeLeftovers(scratch.path());
         return TerrainStages(scratch, std::nullopt);
     }
-    std::error_code ignored;
-    const bool hasScratch = std::filesystem::exists(scratch.path(), ignored);
-    ASSIGN_OR_RETURN(ImportJournal journal, ImportJournal::open(journalPath(scratch.path()), key,
-                                                                startsOver || !hasScratch));
+    ASSIGN_OR_RETURN(ImportJournal journal,
+                     ImportJournal::open(journalPath(scratch.path()), key, startsOver));
+    if (!journal.isEmpty() && !scratch.takeUp(journal.resultBytes()))
+        RETURN_IF_ERROR(journal.clear());
     if (journal.isEmpty())
         unlink(scratch.path().c_str());
     return TerrainStages(scratch, std::move(journal));
@@ -50,8 +59,8 @@ absl::Status TerrainStages::run(const std::function<absl::Status()>& work, const
     RETURN_IF_ERROR(work());
     RETURN_IF_ERROR(kept());
     keeping_ = std::async(std::launch::async, [this, step, bytes = state.save()] {
-        absl::Status status = scratch_->flush();
-        return status.ok() ? journal_->add(step, bytes) : status;
+        const absl::StatusOr<std::uint64_t> flushed = scratch_->flush();
+        return flushed.ok() ? journal_->add(step, bytes, *flushed) : flushed.status();
     });
     return absl::OkStatus();
 }
@@ -90,11 +99,11 @@ void TerrainStages::removeLeftovers(const std::string& scratchPath) {
     if (!fs::exists(fs::symlink_status(scratchPath, ignored)) &&
         !fs::exists(fs::symlink_status(journalOf, ignored)))
         return;
-    absl::StatusOr<ImportJournal> journal = ImportJournal::open(journalOf, 0, true);
-    if (!journal.ok())
+    const absl::StatusOr<ImportJournal> journal = ImportJournal::open(journalOf, 0, true);
+    if (!journal.ok() && !absl::IsResourceExhausted(journal.status()))
         return;  // another's
     unlink(scratchPath.c_str());
-    journal->remove();
+    unlink(journalOf.c_str());
 }
 
 }  // namespace eyrie::import

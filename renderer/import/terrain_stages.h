@@ -11,20 +11,26 @@
 #include <absl/status/status.h>
 
 #include "renderer/import/import_journal.h"
+#include "renderer/import/shard_part.h"
 #include "renderer/terrain/scratch.h"
 
 namespace eyrie::import {
+
+/// Stands for all that the stages of an import, or of a shard of it, depend on.
+std::uint64_t stagesKey(const PartIdentity& identity, std::uint32_t shard);
 
 /// The stages of an import whose results lie on a scratch. Where that has a file, finished stages
 /// are kept in a journal beside it and are not run again; where all fits in memory there is no
 /// file, no journal and nothing to go on from.
 class TerrainStages {
 public:
-    /// `key` stands for all that the result depends on. What a killed job has left there is gone
-    /// on from if it was for the same, and removed if this one `startsOver`.
+    /// `key` is stagesKey's. What a killed job has left there is gone on from if it was for the
+    /// same and is all there still, and removed if this one `startsOver`.
+    /// What one has left at `beside`, where it is without a folder for scratches, is removed where
+    /// that is elsewhere: nothing goes on from it.
     /// Errors: ImportJournal's.
-    static absl::StatusOr<TerrainStages> open(terrain::Scratch& scratch, std::uint64_t key,
-                                              bool startsOver);
+    static absl::StatusOr<TerrainStages> open(terrain::Scratch& scratch, const std::string& beside,
+                                              std::uint64_t key, bool startsOver);
 
     /// What a stage leaves in memory, as bytes; restore is false for bytes that do not fit.
     struct State {

@@ -9,7 +9,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
@@ -18,6 +17,7 @@
 #include "fabric/partial_file.h"
 #include "fabric/replaceable.h"
 #include "fabric/status.h"
+#include "fabric/writer_lock.h"
 #include "renderer/terrain/eyt_layout.h"
 #include "renderer/terrain/normal_map.h"
 #include "renderer/terrain/vertex_packing.h"
@@ -59,19 +59,6 @@ FileHeader headerOf(const EytIndex& index, std::uint64_t indexOffset,
     header.indexChecksum = XXH64(bytes.data(), bytes.size(), 0);
     header.headerChecksum = XXH64(&header, offsetof(FileHeader, headerChecksum), 0);
     return header;
-}
-
-/// Not so where what was opened has since been renamed or removed.
-bool isNameOf(const std::string& path, int fd) {
-    struct stat named {};
-    struct stat opened {};
-    return stat(path.c_str(), &named) == 0 && fstat(fd, &opened) == 0 &&
-           named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
-}
-
-/// Where a file system has no locks it is on whoever starts two imports into one file.
-bool isLocked(int fd) {
-    return flock(fd, LOCK_EX | LOCK_NB) == 0 || errno == ENOLCK || errno == EOPNOTSUPP;
 }
 
 }  // namespace
@@ -171,7 +158,7 @@ absl::StatusOr<EytWriter> EytWriter::resume(const std::string& path) {
         return fabric::writeError(partialPath, "cannot be written", errno);
     EytWriter writer(path, std::move(partialPath), fd);
     writer.keepsUnfinished_ = true;  // until it is known whose it is
-    if (!isLocked(fd) || !isNameOf(writer.partialPath_, fd))
+    if (!fabric::mayWrite(fabric::takeWriterLock(writer.partialPath_, fd)))
         return absl::FailedPreconditionError(fmt::format(
             "{}: another import into the same file is at work; wait for it, or stop it", path));
     struct stat status {};
@@ -185,7 +172,7 @@ void EytWriter::removeUnfinished(const std::string& path) {
     if (fd < 0)
         return;
     EytWriter writer(path, partialPath, fd);
-    writer.keepsUnfinished_ = !isLocked(fd) || !isNameOf(partialPath, fd);
+    writer.keepsUnfinished_ = !fabric::mayWrite(fabric::takeWriterLock(partialPath, fd));
 }
 
 bool EytWriter::takeWritten(std::span<const PageRecord> pages) {

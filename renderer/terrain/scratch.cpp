@@ -13,6 +13,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "fabric/status.h"
@@ -116,6 +117,18 @@ std::uint64_t Scratch::reserve(std::uint64_t bytes) {
     return place;
 }
 
+bool Scratch::takeUp(std::uint64_t bytes) {
+    struct stat status {};
+    if (file() >= 0 && fstat(fd_, &status) == 0 &&
+        static_cast<std::uint64_t>(status.st_size) >= bytes) {
+        stored_ = bytes;
+        return true;
+    }
+    if (fd_ >= 0)
+        close(fd_.exchange(-1));
+    return false;
+}
+
 Scratch::Piece Scratch::read(std::uint64_t place, std::size_t bytes) {
     Shard& shard = shardOf(place);
     const std::lock_guard lock(shard.mutex);
@@ -205,9 +218,13 @@ void Scratch::store(std::uint64_t place, const Piece& data, std::size_t bytes) {
         left -= static_cast<std::size_t>(done);
         offset += done;
     }
+    const std::uint64_t end = place + bytes;
+    std::uint64_t known = stored_;
+    while (known < end && !stored_.compare_exchange_weak(known, end)) {
+    }
 }
 
-/// What was never written reads as zeros, as holes of a file do.
+/// What was never written reads as zeros, as holes of a file do, also beyond its end.
 void Scratch::load(std::uint64_t place, std::span<std::byte> out) {
     std::size_t have = 0;
     while (have < out.size() && (file() >= 0 || errno != ENOENT)) {
@@ -217,6 +234,11 @@ void Scratch::load(std::uint64_t place, std::span<std::byte> out) {
             continue;
         if (got < 0)
             fail("scratch file cannot be read");
+        if (got == 0 && place + have < stored_)
+            fail(absl::DataLossError(fmt::format(
+                "{}: scratch file is shorter than what was written to it; see that nothing else "
+                "writes there, then run the same command again",
+                path_)));
         if (got <= 0)
             break;
         have += static_cast<std::size_t>(got);
@@ -226,15 +248,20 @@ void Scratch::load(std::uint64_t place, std::span<std::byte> out) {
 
 void Scratch::fail(const char* what) {
     const int error = errno;
+    absl::Status status = fabric::writeError(path_, what, error);
+    if (absl::IsResourceExhausted(status))
+        status = absl::ResourceExhaustedError(fmt::format(
+            "{}: {}: {}; free some space and run the same command again: it goes on from "
+            "here; or start over with --scratch on another disk",
+            path_, what, std::strerror(error)));
+    fail(std::move(status));
+}
+
+/// The first failure counts.
+void Scratch::fail(absl::Status status) {
     const std::lock_guard lock(fileMutex_);
-    if (hasFailed_.exchange(true))
-        return;
-    status_ = fabric::writeError(path_, what, error);
-    if (absl::IsResourceExhausted(status_))
-        status_ = absl::ResourceExhaustedError(
-            fmt::format("{}: {}: {}; free some space or name a folder on another disk with "
-                        "--scratch, then run the same command again: it goes on from here",
-                        path_, what, std::strerror(error)));
+    if (!hasFailed_.exchange(true))
+        status_ = std::move(status);
 }
 
 /// Nobody waits while the disk is written to: the mutex is not held then.
@@ -268,11 +295,13 @@ void Scratch::storeDirty(Shard& shard) {
     }
 }
 
-absl::Status Scratch::flush() {
+absl::StatusOr<std::uint64_t> Scratch::flush() {
     for (Shard& shard : shards_) storeDirty(shard);
+    const std::uint64_t bytes = stored_;  // others may write more meanwhile
     if (!hasFailed_ && fdatasync(file(O_CREAT)) != 0)
         fail("scratch file cannot be flushed to disk");
-    return status();
+    RETURN_IF_ERROR(status());
+    return bytes;
 }
 
 absl::Status Scratch::status() const {

@@ -22,11 +22,12 @@ namespace eyrie::terrain {
 ///
 /// Any thread may read and write any piece. A failure of the disk is kept: reads then give zeros,
 /// and status() says what happened; whoever fills or uses a scratch looks there before going on.
+/// What was never written reads as zeros, too; what was and is no longer in the file is a failure.
 class Scratch {
 public:
     using Piece = std::shared_ptr<const std::byte[]>;
 
-    /// The file `path` is made when the first piece leaves memory; an existing one is read.
+    /// The file `path` is made when the first piece leaves memory.
     Scratch(std::string path, std::uint64_t budgetBytes);
     Scratch(const Scratch&) = delete;
     Scratch& operator=(const Scratch&) = delete;
@@ -35,6 +36,9 @@ public:
 
     /// Room for `bytes`, as the place of its first byte. The same calls give the same places.
     std::uint64_t reserve(std::uint64_t bytes);
+    /// Goes on with the file of an earlier scratch, whose last flush said that it has `bytes`.
+    /// False where it does not: it is of no use, and not read. Before any piece is read or written.
+    bool takeUp(std::uint64_t bytes);
     /// All that was reserved fits in memory.
     bool fitsInMemory() const { return reserved_ <= budget_; }
     /// Adds to the budget. While no other thread reads or writes.
@@ -52,8 +56,9 @@ public:
     /// Leaves out of memory, and of what is still to be stored, a piece that nobody reads again.
     void forget(std::uint64_t place);
     /// Brings every piece to the disk, not only the ones that did not fit. Meanwhile other threads
-    /// may read and write others, but write none again that was written before.
-    absl::Status flush();
+    /// may read and write others, but write none again that was written before. Returns how many
+    /// bytes the file has on the disk.
+    absl::StatusOr<std::uint64_t> flush();
     absl::Status status() const;
 
     const std::string& path() const { return path_; }
@@ -81,6 +86,7 @@ private:
     void load(std::uint64_t place, std::span<std::byte> out);
     int file(int flags = 0);
     void fail(const char* what);
+    void fail(absl::Status status);
 
     const std::string path_;
     std::uint64_t budget_;
@@ -88,6 +94,7 @@ private:
     std::array<Shard, kShards> shards_;
     mutable std::mutex fileMutex_;  ///< guards opening, and status_
     std::atomic<int> fd_ = -1;
+    std::atomic<std::uint64_t> stored_ = 0;  ///< bytes that the file has at least
     std::atomic<bool> hasFailed_ = false;
     absl::Status status_;
 };

@@ -16,6 +16,7 @@ eyrie_test(dem_mosaic_test LABEL unit
            SOURCES dem_mosaic_fixture.cpp dem_mosaic_test.cpp dem_tiles_test.cpp dem_units_test.cpp length_caveat_test.cpp wide_lands_test.cpp
            LINK eyrie_test_terrain GDAL::GDAL fmt::fmt)
 eyrie_test(terrain_resume_test LABEL unit LINK eyrie_test_terrain)
+eyrie_test(import_locks_test LABEL unit LINK eyrie_test_terrain)
 add_library(eyrie_test_imagery imagery_fixture.cpp)
 target_link_libraries(eyrie_test_imagery PUBLIC eyrie_test_terrain PRIVATE GDAL::GDAL)
 eyrie_test(imagery_import_test LABEL unit

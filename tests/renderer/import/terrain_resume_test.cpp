@@ -10,7 +10,9 @@
 
 #include "renderer/import/geotiff_writer.h"
 #include "renderer/import/import_journal.h"
+#include "renderer/import/shard_part.h"
 #include "renderer/import/terrain_import.h"
+#include "renderer/import/terrain_stages.h"
 #include "renderer/import/terrain_synth.h"
 #include "tests/renderer/import/file_size_limit.h"
 #include "tests/renderer/import/terrain_fixture.h"
@@ -184,6 +186,20 @@ TEST_F(TerrainResume, StartsOverForOtherOptionsOrWhenToldSo) {
     EXPECT_EQ(begun_.front(), "reading");
 }
 
+TEST_F(TerrainResume, GoesOnWithWhatThisVersionHasDoneAlone) {
+    const std::string out = folder_.path("a.eyt");
+    ASSERT_FALSE(importUntil("building", out).ok());
+    const auto isJournalOf = [&](const PartIdentity& identity) {
+        const auto journal =
+            ImportJournal::open(out + ".scratch.journal", stagesKey(identity, 0), false);
+        return journal.ok() && !journal->isEmpty();
+    };
+    PartIdentity identity = identityOf(largeGrid().frame(), 77, -1, 0, 1);
+    EXPECT_TRUE(isJournalOf(identity));
+    identity.programVersion = {'9', '.', '9'};
+    EXPECT_FALSE(isJournalOf(identity));
+}
+
 TEST_F(TerrainResume, GoesOnAfterADamagedJournal) {
     const std::string whole = folder_.path("whole.eyt");
     ASSERT_TRUE(import(whole, {}, {}).ok());
@@ -201,11 +217,53 @@ TEST_F(TerrainResume, GoesOnAfterADamagedJournal) {
     }
 }
 
+TEST_F(TerrainResume, StartsOverWhereTheScratchIsNoLongerWhole) {
+    const std::string whole = folder_.path("whole.eyt");
+    ASSERT_TRUE(import(whole, {}, {}).ok());
+    const std::string out = folder_.path("a.eyt");
+    const std::string scratch = out + ".scratch";
+    const std::function<void()> damages[] = {
+        [&] { std::filesystem::remove(scratch); },
+        [&] { std::filesystem::resize_file(scratch, 0); },
+        [&] { std::filesystem::resize_file(scratch, std::filesystem::file_size(scratch) / 4); }};
+    for (const std::function<void()>& damage : damages) {
+        ASSERT_FALSE(importUntil("thinning", out).ok());
+        damage();
+        ASSERT_TRUE(importUntil("never", out).ok());
+        EXPECT_EQ(begun_.front(), "reading");
+        EXPECT_EQ(test::contents(out), test::contents(whole));
+    }
+}
+
 TEST_F(TerrainResume, SaysWhatIsWrongWithTheScratchFolder) {
     const absl::Status status = import(folder_.path("a.eyt"), {},
                                        {.memoryBytes = 1, .scratchFolder = folder_.path("none")});
     EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
     EXPECT_THAT(status.ToString(), HasSubstr("none"));
+    EXPECT_TRUE(folder_.files().empty());
+}
+
+/// As it says itself where its disk is full.
+TEST_F(TerrainResume, MakesRoomWhereItStartsOverWithAScratchElsewhere) {
+    const std::string out = folder_.path("a.eyt");
+    std::filesystem::create_directory(folder_.path("scratch"));
+    ASSERT_FALSE(importUntil("building", out).ok());
+    ASSERT_TRUE(std::filesystem::exists(out + ".scratch"));
+    ImportControl control;
+    control.progress = [&](std::string_view, double) {
+        EXPECT_FALSE(std::filesystem::exists(out + ".scratch"));
+        EXPECT_FALSE(std::filesystem::exists(out + ".scratch.journal"));
+    };
+    const absl::Status status =
+        import(out, control, {.memoryBytes = 1, .scratchFolder = folder_.path("scratch")});
+    EXPECT_TRUE(status.ok()) << status;
+}
+
+TEST_F(TerrainResume, MakesRoomWhereThereIsNotEvenAnyForAJournal) {
+    const std::string scratch = folder_.path("a.eyt.scratch");
+    std::ofstream(scratch) << "posts";
+    const test::FileSizeLimit full(0);
+    TerrainStages::removeLeftovers(scratch);
     EXPECT_TRUE(folder_.files().empty());
 }
 
@@ -228,8 +286,8 @@ TEST(ImportJournal, GivesBackWhatWasAddedForTheSameKeyOnly) {
     {
         auto journal = ImportJournal::open(path, 5, false);
         ASSERT_TRUE(journal.ok()) << journal.status();
-        ASSERT_TRUE(journal->add(0, std::vector<std::byte>{}).ok());
-        ASSERT_TRUE(journal->add(1, state).ok());
+        ASSERT_TRUE(journal->add(0, std::vector<std::byte>{}, 0).ok());
+        ASSERT_TRUE(journal->add(1, state, 0).ok());
         EXPECT_EQ(ImportJournal::open(path, 5, false).status().code(),
                   absl::StatusCode::kFailedPrecondition);
     }
@@ -252,7 +310,8 @@ TEST(ImportJournal, ForgetsForGoodWhatFollowedAStepThatIsDoneAgain) {
     {
         auto journal = ImportJournal::open(path, 5, false);
         ASSERT_TRUE(journal.ok());
-        for (std::uint32_t step = 0; step < 4; ++step) ASSERT_TRUE(journal->add(step, state).ok());
+        for (std::uint32_t step = 0; step < 4; ++step)
+            ASSERT_TRUE(journal->add(step, state, 0).ok());
     }
     {
         auto journal = ImportJournal::open(path, 5, false);
@@ -261,7 +320,7 @@ TEST(ImportJournal, ForgetsForGoodWhatFollowedAStepThatIsDoneAgain) {
         ASSERT_TRUE(journal->dropFrom(2).ok());
         EXPECT_NE(journal->find(1), nullptr);
         EXPECT_EQ(journal->find(3), nullptr);
-        ASSERT_TRUE(journal->add(2, state).ok());
+        ASSERT_TRUE(journal->add(2, state, 0).ok());
     }
     auto journal = ImportJournal::open(path, 5, false);
     ASSERT_TRUE(journal.ok());
@@ -284,7 +343,7 @@ TEST(ImportJournal, KeepsWholeRecordsOfACutFile) {
         auto journal = ImportJournal::open(path, 5, false);
         ASSERT_TRUE(journal.ok());
         for (std::uint32_t step = 0; step < 3; ++step)
-            ASSERT_TRUE(journal->add(step, std::vector<std::byte>(50, std::byte{1})).ok());
+            ASSERT_TRUE(journal->add(step, std::vector<std::byte>(50, std::byte{1}), step).ok());
     }
     const std::string whole = test::contents(path);
     std::size_t most = 0;
@@ -295,11 +354,12 @@ TEST(ImportJournal, KeepsWholeRecordsOfACutFile) {
             auto journal = ImportJournal::open(path, 5, false);
             ASSERT_TRUE(journal.ok());
             while (journal->find(kept) != nullptr) ++kept;
-            ASSERT_TRUE(journal->add(kept, std::vector<std::byte>{}).ok());
+            ASSERT_TRUE(journal->add(kept, std::vector<std::byte>{}, 9).ok());
         }
         auto again = ImportJournal::open(path, 5, false);
         ASSERT_TRUE(again.ok());
         EXPECT_NE(again->find(kept), nullptr) << cut;
+        EXPECT_EQ(again->resultBytes(), 9U) << cut;
         EXPECT_GE(kept, most);
         most = kept;
     }

@@ -266,6 +266,45 @@ TEST_F(TerrainShards, MayBeDoneTwiceAtTheSameTime) {
     EXPECT_EQ(folder_.files(), (std::vector<std::string>{"out.eyt", "whole.eyt"}));
 }
 
+/// Out of core a shard has one scratch: it is done once, or once more when it is whole.
+TEST_F(TerrainShards, MayBeDoneTwiceAtTheSameTimeOutOfCore) {
+    const terrain::HeightGrid posts = test::hardGrid(GridKind::Smooth, 700, 600, 1);
+    const std::string expected = whole(posts);
+    std::vector<std::thread> threads;
+    std::array<absl::Status, 8> statuses;
+    for (std::uint32_t k = 0; k < 8; ++k)
+        threads.emplace_back([&, k] {
+            statuses[k] = shard(posts, {k % 2, 2}, {.memoryBytes = 1});
+        });
+    for (std::thread& thread : threads) thread.join();
+    for (const absl::Status& status : statuses)
+        EXPECT_TRUE(status.ok() || absl::IsFailedPrecondition(status)) << status;
+    ASSERT_TRUE(merge(posts).ok());
+    EXPECT_TRUE(contents(out()) == expected);
+    EXPECT_EQ(folder_.files(), (std::vector<std::string>{"out.eyt", "whole.eyt"}));
+}
+
+TEST_F(TerrainShards, DoNotMindOneThatFailsAtOnce) {
+    const terrain::HeightGrid posts = test::hardGrid(GridKind::Smooth, 600, 40, 1);
+    const std::vector<std::string> none = {folder_.path("none.tif")};
+    ImportControl control;
+    control.progress = [&](std::string_view stage, double) {
+        if (stage == "reading") {
+            EXPECT_FALSE(importTerrainShard(none, out(), {1, 2}, {}, {}).ok());
+        }
+    };
+    const absl::Status status = shard(posts, {0, 2}, {}, control);
+    EXPECT_TRUE(status.ok()) << status;
+}
+
+TEST_F(TerrainShards, RefuseAFolderAsOutputBeforeTheWork) {
+    std::filesystem::create_directory(out());
+    const absl::Status status = shard(test::hardGrid(GridKind::Smooth, 20, 20, 1), {0, 2});
+    EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
+    EXPECT_THAT(status.ToString(), HasSubstr(out()));
+    EXPECT_FALSE(std::filesystem::exists(partsFolder(out())));
+}
+
 /// Each looks for what killed writers have left, and must not be stopped by another that does.
 TEST_F(TerrainShards, FilesOfSeveralWritersAreMadeAtTheSameTime) {
     std::vector<std::thread> threads;
@@ -314,12 +353,20 @@ TEST_F(Merging, NamesAllShardsThatAreMissing) {
     EXPECT_TRUE(absl::IsNotFound(merge(posts_)));
 }
 
+TEST_F(Merging, SaysThatTheOutputIsThereWhereThePartsAreGone) {
+    ASSERT_TRUE(merge(posts_).ok());
+    const absl::Status again = merge(posts_);
+    EXPECT_TRUE(absl::IsNotFound(again)) << again;
+    EXPECT_THAT(again.ToString(), HasSubstr(out() + " is there, made of these sources"));
+    EXPECT_THAT(merge(posts_, kMerge, 8).ToString(), testing::Not(HasSubstr("these sources")));
+}
+
 TEST_F(Merging, RefusesPartsOfOtherSourcesAndOptionsAndSaysWhatDiffers) {
     const auto refused = [&](const absl::Status& status, const char* what) {
         EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
         EXPECT_THAT(status.ToString(), AllOf(HasSubstr("shard-0-of-3"), HasSubstr(what)));
     };
-    refused(merge(posts_, kMerge, 8), "checksum was 0000000000000007");
+    refused(merge(posts_, kMerge, 8), "or the same in another order: their checksum was 0");
     refused(merge(posts_, {.errorMetres = 3}), "no --error, now it is --error 3");
     terrain::HeightGrid moved = posts_;
     moved.origin.x += 1;
@@ -328,6 +375,13 @@ TEST_F(Merging, RefusesPartsOfOtherSourcesAndOptionsAndSaysWhatDiffers) {
     EXPECT_TRUE(std::filesystem::exists(part(0, 3)));
     EXPECT_FALSE(std::filesystem::exists(out()));
     EXPECT_TRUE(merge(posts_).ok());
+}
+
+/// What the order of pictures is decides which of them is seen.
+TEST_F(Merging, TellsThatThePicturesMayBeTheSameInAnotherOrder) {
+    const PartIdentity found = identityOf(posts_.frame(), 7, -1, 1, 3);
+    EXPECT_THAT(difference(found, identityOf(posts_.frame(), 7, -1, 2, 3)),
+                HasSubstr("other pictures, or the same in another order"));
 }
 
 TEST_F(Merging, RefusesPartsOfAnotherVersion) {
@@ -379,6 +433,16 @@ TEST_F(Merging, NamesADamagedPart) {
     check(made + "x", made.size());
     ASSERT_TRUE(shard(posts_, {1, 3}).ok());
     EXPECT_TRUE(merge(posts_).ok());
+}
+
+TEST_F(Merging, SaysWhatItLeavesOfOtherSplits) {
+    for (const char* name : {"facts-1-of-5", "shard-1-of-5.scratch"})
+        std::ofstream(partsFolder(out()) + "/" + name) << "of another split";
+    GridHeightSource posts(posts_);
+    const auto report = importTerrain(posts, source(), out(), kMerge, {});
+    ASSERT_TRUE(report.ok()) << report.status();
+    EXPECT_THAT(report->notes,
+                testing::Contains(HasSubstr("out.eyt.parts: still has facts-1-of-5 and 1 more")));
 }
 
 TEST_F(Merging, LeavesThePartsWhenItIsCalledOff) {

@@ -96,6 +96,43 @@ TEST(Scratch, StoresNoPieceThatIsForgotten) {
     std::filesystem::remove(path);
 }
 
+TEST(Scratch, GoesOnOnlyWithAFileThatHasAllThatWasFlushed) {
+    const std::string path = freshPath();
+    std::uint64_t flushed = 0;
+    {
+        Scratch scratch(path, 0);
+        scratch.write(scratch.reserve(5000), pieceOf(5000, 3), 5000);
+        const auto bytes = scratch.flush();
+        ASSERT_TRUE(bytes.ok()) << bytes.status();
+        flushed = *bytes;
+    }
+    EXPECT_EQ(flushed, 5000U);
+    {
+        Scratch scratch(path, 0);
+        ASSERT_TRUE(scratch.takeUp(flushed));
+        EXPECT_EQ(static_cast<int>(scratch.read(scratch.reserve(5000), 5000)[4999]), 3);
+    }
+    EXPECT_FALSE(Scratch(path, 0).takeUp(flushed + 1));
+    std::filesystem::resize_file(path, flushed - 1);
+    EXPECT_FALSE(Scratch(path, 0).takeUp(flushed));
+    std::filesystem::remove(path);
+    EXPECT_FALSE(Scratch(path, 0).takeUp(flushed));
+}
+
+TEST(Scratch, FailsWhereWhatWasWrittenIsNoLongerThere) {
+    const std::string path = freshPath();
+    Scratch scratch(path, 0);
+    std::vector<std::uint64_t> places;
+    for (int k = 0; k < 100; ++k) places.push_back(scratch.reserve(5000));
+    for (const std::uint64_t place : places) scratch.write(place, pieceOf(5000, 3), 5000);
+    ASSERT_TRUE(scratch.flush().ok());
+    std::filesystem::resize_file(path, 5000);
+    for (const std::uint64_t place : places) scratch.read(place, 5000);
+    EXPECT_TRUE(absl::IsDataLoss(scratch.status())) << scratch.status();
+    EXPECT_NE(scratch.status().ToString().find(path), std::string::npos);
+    std::filesystem::remove(path);
+}
+
 /// What is flushed may leave memory at the same time, for what is written meanwhile.
 TEST(Scratch, GivesBackWhatIsReadAndWrittenDuringAFlush) {
     constexpr std::size_t kPlaces = 400;
@@ -125,9 +162,9 @@ TEST(Scratch, SaysThatTheDiskIsFullAndHowToGoOn) {
     Scratch scratch("/dev/full", 1000);
     const std::uint64_t place = scratch.reserve(100000);
     scratch.write(place, pieceOf(100000, 3), 100000);
-    const absl::Status status = scratch.flush();
+    const absl::Status status = scratch.flush().status();
     EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
-    EXPECT_NE(status.ToString().find("--scratch"), std::string::npos);
+    EXPECT_NE(status.ToString().find("start over with --scratch"), std::string::npos);
     EXPECT_EQ(scratch.status(), status);
 }
 
