@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <string_view>
 #include <system_error>
 
@@ -20,6 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMaxFiles = 1000;
+/// As `eyrie import terrain --error` takes them.
+constexpr double kLeastErrorMetres = 1e-6;
+constexpr double kMostErrorMetres = 1e6;
 
 /// The files' names as a program in the data folder has them: no option begins so.
 absl::StatusOr<std::vector<std::string>> filesOf(
@@ -120,10 +122,11 @@ absl::Status checkChoices(const v1::ImportRequest& request, v1::OperationKind ki
         return absl::InvalidArgumentError("imagery is of terrains, and the output is a mesh");
     if (kind == v1::OPERATION_KIND_IMPORT_MESH && request.has_error_metres())
         return absl::InvalidArgumentError("error_metres is of terrains, and the output is a mesh");
-    if (request.has_error_metres() &&
-        !(std::isfinite(request.error_metres()) && request.error_metres() > 0))
-        return absl::InvalidArgumentError(fmt::format(
-            "error_metres is {}; it must be more than 0, and a number", request.error_metres()));
+    if (request.has_error_metres() && !(request.error_metres() >= kLeastErrorMetres &&
+                                        request.error_metres() <= kMostErrorMetres))
+        return absl::InvalidArgumentError(
+            fmt::format("error_metres is {}; it must be from {} to {}", request.error_metres(),
+                        kLeastErrorMetres, kMostErrorMetres));
     return absl::OkStatus();
 }
 
@@ -182,8 +185,11 @@ absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
             ASSIGN_OR_RETURN(source, nameOfPart(request.subdataset(), source));
         }
     const bool isTerrain = order.kind == v1::OPERATION_KIND_IMPORT_TERRAIN;
-    order.arguments = {"import", isTerrain ? "terrain" : "mesh", "--progress-json", "--json",
-                       "--memory=" + std::to_string(memoryBytes)};
+    // Sources come first: what follows --imagery would be more pictures.
+    order.arguments = {"import", isTerrain ? "terrain" : "mesh"};
+    order.arguments.insert(order.arguments.end(), sources.begin(), sources.end());
+    order.arguments.insert(order.arguments.end(), {"--progress-json", "--json",
+                                                   "--memory=" + std::to_string(memoryBytes)});
     for (const std::string& each : imagery) order.arguments.push_back("--imagery=" + each);
     if (request.has_error_metres())
         order.arguments.push_back(fmt::format("--error={}", request.error_metres()));
@@ -191,7 +197,6 @@ absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
         order.arguments.emplace_back("--orient");
     if (!request.normals().empty())
         order.arguments.push_back("--normals=" + request.normals());
-    order.arguments.insert(order.arguments.end(), sources.begin(), sources.end());
     return order;
 }
 

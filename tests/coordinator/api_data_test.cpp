@@ -182,7 +182,7 @@ TEST_F(RestData, ImportsIntoTheDataFolder) {
     ASSERT_EQ(commands_.size(), 1U);
     EXPECT_EQ(commands_[0][1], "terrain");
     EXPECT_THAT(commands_[0], Contains("--error=0.5"));
-    EXPECT_THAT(commands_[0], Contains("./survey/dem.tif"));
+    EXPECT_EQ(commands_[0][2], "./survey/dem.tif");
     EXPECT_THAT(*ask("GET", "/operations").body, HasSubstr("\"one\""));
     EXPECT_EQ(ask("DELETE", "/operations/one").status, 200);
     EXPECT_EQ(ask("GET", "/operations/one").status, 404);
@@ -239,6 +239,18 @@ TEST_F(RestData, SaysWhatCouldNotBeMadeByItsNameInTheFolder) {
     EXPECT_EQ(endOf("full"), "OPERATION_STATE_FAILED");
     EXPECT_EQ(member(ask("GET", "/operations/full"), "problem"),
               "survey/dem.eyt: write failed: No space left on device; see survey/dem.eyt");
+}
+
+TEST_F(RestData, SaysWhatIsWrongAndNotWhichHelpToRead) {
+    run_ = [](const auto&, const auto& heard, const auto&) {
+        heard("eyrie: --error: Value 2 not in range 0 to 1");
+        heard("`eyrie import terrain --help` explains it");
+        return ProgramEnd{false, 2, ""};
+    };
+    ASSERT_EQ(ask("POST", "/imports", import(), "refused").status, 200);
+    EXPECT_EQ(endOf("refused"), "OPERATION_STATE_FAILED");
+    EXPECT_EQ(member(ask("GET", "/operations/refused"), "problem"),
+              "--error: Value 2 not in range 0 to 1");
 }
 
 TEST_F(RestData, LeavesNothingOfWhatIsCalledOff) {
@@ -324,7 +336,8 @@ TEST_F(RestData, RefusesWhatIsNotOfTheKind) {
     EXPECT_TRUE(isRefused("a.eym", R"("imagery":["survey/dem.tif"])"));
     EXPECT_TRUE(isRefused("a.eym", R"("errorMetres":1)"));
     EXPECT_TRUE(isRefused("a.eyt", R"("errorMetres":-1)"));
-    EXPECT_TRUE(isRefused("a.eyt", R"("errorMetres":"NaN")"));
+    for (const char* error : {"\"NaN\"", "\"Infinity\"", "0", "1e-7", "1.1e6"})
+        EXPECT_TRUE(isRefused("a.eyt", fmt::format("\"errorMetres\":{}", error))) << error;
     EXPECT_EQ(ask("POST", "/imports", R"({"output":"a.eyt"})").status, 400);
 }
 
@@ -366,7 +379,7 @@ TEST_F(RestData, ImportsOneOfSeveralRastersOfAFile) {
         const RestAnswer answer = importOf(source, part);
         EXPECT_EQ(answer.status, 200) << *answer.body;
         EXPECT_EQ(endOf(member(answer, "id")), "OPERATION_STATE_DONE");
-        return commands_.back().at(commands_.back().size() - 2);
+        return commands_.back().at(2);
     };
     EXPECT_EQ(named("two.gpkg", "alps"), "GPKG:./two.gpkg:alps");
     EXPECT_EQ(named("two.TIF", "20"), "GTIFF_DIR:20:./two.TIF");

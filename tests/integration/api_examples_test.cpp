@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 #include <thread>
@@ -236,6 +237,21 @@ TEST_F(ApiExamples, AFileIsImportedAndCanBeShown) {
         ask("python3", "examples/import_data.py", {"example.tif", "example.tif"});
     EXPECT_NE(wrong.exit.status, 0);
     EXPECT_THAT(wrong.errors, HasSubstr("must end in .eyt"));
+}
+
+TEST_F(ApiExamples, AFileIsImportedWithAPictureOverIt) {
+    std::ofstream(folder_->path("data/ground.ppm"), std::ios::binary) << "P6 2 2 255\n"
+                                                                      << std::string(12, 'a');
+    curl({"--json", R"({"sources":["example.tif"],"imagery":["ground.ppm"],)"
+                    R"("output":"draped.eyt","requestId":"draped"})"},
+         "/imports");
+    std::string told;
+    EXPECT_TRUE(test::eventually(seconds(60), [&] {
+        told = curl({}, "/operations/draped");
+        return told.find("STATE_DONE") != std::string::npos;
+    })) << told;
+    const test::Outcome info = test::eyrie({"info", folder_->path("data/draped.eyt"), "--json"});
+    EXPECT_THAT(info.output, HasSubstr("\"imagery\": {"));
 }
 
 TEST_F(ApiExamples, AnImportThatIsCalledOffLeavesNothing) {
