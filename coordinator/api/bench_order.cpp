@@ -177,7 +177,7 @@ absl::Status carryOut(const BenchOrder& order, const RunProgram& run,
     RETURN_IF_ERROR(write(report / "scene.json", order.sceneJson));
     if (!order.flightName.empty())
         RETURN_IF_ERROR(write(report / order.flightName, order.flightJson));
-    const absl::Status end = runToItsEnd(order.arguments, report, run, progress, stop);
+    const absl::Status end = runToItsEnd(order.arguments, report, run, progress, stop).status();
     const bool isWhole =  // the summary is written last
         end.ok() || (order.measuresErrors && !stop.stop_requested() &&
                      fs::exists(report / fileNameOf(v1::REPORT_FILE_SUMMARY), error));

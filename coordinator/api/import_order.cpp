@@ -7,6 +7,8 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
 
 #include "coordinator/api/data_sets.h"
 #include "coordinator/api/work_folder.h"
@@ -151,13 +153,26 @@ absl::Status moveInto(const fs::path& made, const fs::path& place) {
     return absl::OkStatus();
 }
 
-/// `status` in the caller's terms: what was being made has the name that it was to get, and where
+/// `text` in the caller's terms: what was being made has the name that it was to get, and where
 /// the data folder is nobody is told.
-absl::Status named(const absl::Status& status, const std::string& made, const std::string& name) {
-    std::string text(status.message());
+std::string named(std::string text, const std::string& made, const std::string& name) {
     for (std::size_t at = text.find(made); at != std::string::npos; at = text.find(made, at + 1))
         text.replace(at, made.size(), name);
-    return {status.code(), text};
+    return text;
+}
+
+/// Of what the program's `--json` says.
+Operations::Notes notesOf(const std::string& output, const std::string& made,
+                          const std::string& name) {
+    google::protobuf::Struct json;
+    Operations::Notes notes;
+    if (!google::protobuf::util::JsonStringToMessage(output, &json).ok())
+        return notes;
+    const google::protobuf::Value list =
+        json.fields().contains("notes") ? json.fields().at("notes") : google::protobuf::Value();
+    for (const google::protobuf::Value& note : list.list_value().values())
+        notes.push_back(named(note.string_value(), made, name));
+    return notes;
 }
 
 }  // namespace
@@ -200,17 +215,23 @@ absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
     return order;
 }
 
-absl::Status carryOut(const ImportOrder& order, const access::DataFolder& folder,
-                      const RunProgram& run, const Operations::Progress& progress,
-                      const std::stop_token& stop) {
+absl::StatusOr<Operations::Notes> carryOut(const ImportOrder& order,
+                                           const access::DataFolder& folder, const RunProgram& run,
+                                           const Operations::Progress& progress,
+                                           const std::stop_token& stop) {
     ASSIGN_OR_RETURN(const WorkFolder work, WorkFolder::in(order.output.parent_path(), "import"));
     const fs::path made = work.path() / order.output.filename();
     std::vector<std::string> arguments = order.arguments;
     arguments.push_back("--output=" + made.string());
-    RETURN_IF_ERROR(named(runToItsEnd(arguments, folder.path(), run, progress, stop), made.string(),
-                          order.output.lexically_relative(folder.path()).string()));
+    const std::string name = order.output.lexically_relative(folder.path()).string();
+    const absl::StatusOr<std::string> output =
+        runToItsEnd(arguments, folder.path(), run, progress, stop);
+    if (!output.ok())
+        return absl::Status(output.status().code(),
+                            named(std::string(output.status().message()), made.string(), name));
     RETURN_IF_ERROR(checkOutput(order, order.output.filename().string()));
-    return moveInto(made, order.output);
+    RETURN_IF_ERROR(moveInto(made, order.output));
+    return notesOf(*output, made.string(), name);
 }
 
 }  // namespace eyrie::api

@@ -13,6 +13,7 @@
 
 #include "coordinator/api/api.h"
 #include "coordinator/api/data_sets.h"
+#include "eyrie/v1/operation.pb.h"
 #include "tests/coordinator/fake_frame_source.h"
 #include "tests/service/eventually.h"
 #include "tests/support/temporary_folder.h"
@@ -251,6 +252,37 @@ TEST_F(RestData, SaysWhatIsWrongAndNotWhichHelpToRead) {
     EXPECT_EQ(endOf("refused"), "OPERATION_STATE_FAILED");
     EXPECT_EQ(member(ask("GET", "/operations/refused"), "problem"),
               "--error: Value 2 not in range 0 to 1");
+}
+
+TEST_F(RestData, TellsWhatAnImportLeftOut) {
+    run_ = [](const auto& arguments, const auto&, const auto&) {
+        EXPECT_TRUE(writeOutput(arguments).ok());
+        const std::string made = arguments.back().substr(std::string("--output=").size());
+        return ProgramEnd{
+            false, 0,
+            fmt::format(R"({{"levels": 3, "notes": ["12 posts are void", "see {}"]}})", made)};
+    };
+    const auto notes = [&](const std::string& id) {
+        EXPECT_EQ(endOf(id), "OPERATION_STATE_DONE");
+        v1::Operation operation;
+        EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(
+                        *ask("GET", "/operations/" + id).body, &operation)
+                        .ok());
+        return std::vector<std::string>(operation.notes().begin(), operation.notes().end());
+    };
+    ASSERT_EQ(ask("POST", "/imports", import(), "one").status, 200);
+    EXPECT_THAT(notes("one"), ElementsAre("12 posts are void", "see survey/dem.eyt"));
+
+    // What tells none, or nothing that can be read, has none.
+    for (const char* output : {"", "no JSON", "[]", "{}", R"({"notes": 5})"}) {
+        run_ = [output](const auto& arguments, const auto&, const auto&) {
+            EXPECT_TRUE(writeOutput(arguments).ok());
+            return ProgramEnd{false, 0, output};
+        };
+        const RestAnswer begun = ask("POST", "/imports", import(R"(,"replace":true)"));
+        ASSERT_EQ(begun.status, 200) << *begun.body;
+        EXPECT_THAT(notes(member(begun, "id")), IsEmpty()) << output;
+    }
 }
 
 TEST_F(RestData, LeavesNothingOfWhatIsCalledOff) {

@@ -250,6 +250,7 @@ TEST_F(ApiExamples, AFileIsImportedWithAPictureOverIt) {
         told = curl({}, "/operations/draped");
         return told.find("STATE_DONE") != std::string::npos;
     })) << told;
+    EXPECT_THAT(told, HasSubstr("stretched over the whole terrain")) << "a note of the import";
     const test::Outcome info = test::eyrie({"info", folder_->path("data/draped.eyt"), "--json"});
     EXPECT_THAT(info.output, HasSubstr("\"imagery\": {"));
 }
