@@ -112,15 +112,14 @@ absl::StatusOr<fs::path> placeOf(const v1::BenchRequest& request,
             "output is '{}'; it must be a name and {}, such as orbit{}",
             fs::path(request.output()).filename().string(), kReportEnding, kReportEnding));
     const absl::StatusOr<fs::path> before = folder.existing(request.output());
-    std::error_code error;
-    if (!before.ok() || !fs::is_directory(*before, error)) {
-        const absl::StatusOr<fs::path> place = folder.place(request.output());
-        return place.ok() ? place : fabric::withContext(place.status(), "output");
-    }
-    if (!request.replace())
+    if (before.ok() && !request.replace())
         return absl::AlreadyExistsError(fmt::format(
             "output '{}' is there already; choose another name, or set replace", request.output()));
-    return *before;
+    std::error_code error;
+    if (before.ok() && fs::is_directory(*before, error))
+        return *before;
+    const absl::StatusOr<fs::path> place = folder.place(request.output());
+    return place.ok() ? place : fabric::withContext(place.status(), "output");
 }
 
 absl::Status write(const fs::path& path, const std::string& text) {
