@@ -54,6 +54,9 @@ TEST_F(Rest, SaysWhichFieldIsWrongAndWhatToDo) {
     const RestAnswer tau = send("POST", "/image", R"({"tauPixels":0})");
     expectProblem(tau, 400, "INVALID_ARGUMENT");
     EXPECT_EQ(text(tau, "field"), "tauPixels");
+    EXPECT_THAT(text(tau, "detail"), StartsWith("tau_pixels is 0;"));
+    EXPECT_THAT(text(send("POST", "/image", R"({"shading":99})"), "detail"),
+                StartsWith("shading is 99,"));
     const RestAnswer width = send("POST", "/image", R"({"width":8193})");
     expectProblem(width, 400, "INVALID_ARGUMENT");
     EXPECT_EQ(text(width, "field"), "width");
