@@ -96,7 +96,9 @@ std::string commandOf(const v1::Rest& rest) {
                                  ? " --json @body.json"
                              : rest.method() == "DELETE" ? ""
                                                          : " --json '" + rest.example() + "'";
-    return fmt::format("curl{} -X {}{} '{}'", output, rest.method(), body, url);
+    // --json alone asks for the answer as JSON, too.
+    const char* const accept = rest.bytes().empty() ? "" : " --header 'Accept: image/png'";
+    return fmt::format("curl{} -X {}{}{} '{}'", output, rest.method(), body, accept, url);
 }
 
 /// By HTTP a call may have one field alone as its body, or as its answer.

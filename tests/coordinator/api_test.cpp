@@ -182,6 +182,14 @@ TEST_F(Rest, ThePageHasAPlaceForEachErrorThatNamesOne) {
         EXPECT_THAT(page, HasSubstr("<tr id=\"" + absl::StatusCodeToString(code) + "\">"));
 }
 
+TEST_F(Rest, ThePageAsksForPicturesAndNotForJsonOfThem) {
+    const std::string page = *api_->rest().answer({"GET", "/api"}).body;
+    const std::size_t from = page.find("curl -o picture.png -X POST");
+    ASSERT_NE(from, std::string::npos);
+    EXPECT_THAT(page.substr(from, page.find('\n', from) - from),
+                HasSubstr("--header 'Accept: image/png'"));
+}
+
 TEST_F(Rest, TheDocumentTellsOfTokensAndHeaders) {
     const Value document = json(get("/openapi.json"));
     const Value token = member(member(member(document, "components"), "securitySchemes"), "token");

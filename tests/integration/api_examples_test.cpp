@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <thread>
@@ -79,6 +80,11 @@ protected:
         const std::string output = server_->output();
         const std::string address = output.substr(output.find("gRPC at ") + 8);
         return address.substr(0, address.find('\n'));
+    }
+
+    static std::string textOf(const std::string& path) {
+        std::ifstream file(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
     }
 
     static std::string curl(std::vector<std::string> arguments, const std::string& path) {
@@ -290,6 +296,10 @@ TEST_F(ApiExamples, CurlMakesTheCallsMostAskedFor) {
                              "evening.png", "upper.png", "pick.json", "data-sets.json",
                              "operations.json", "sessions.json", "frame.txt"})
         EXPECT_GT(std::filesystem::file_size(folder + "/" + name), 10U) << name;
+    for (const auto& [name, begin] :
+         {std::pair("picture.png", "\x89PNG"), std::pair("picture.jpg", "\xff\xd8\xff"),
+          std::pair("evening.png", "\x89PNG"), std::pair("upper.png", "\x89PNG")})
+        EXPECT_THAT(textOf(folder + "/" + name), testing::StartsWith(begin)) << name;
 }
 
 /// What the first who connects asks for; the answer is 401.
