@@ -11,6 +11,7 @@
 #include <google/protobuf/util/json_util.h>
 
 #include "coordinator/api/data_sets.h"
+#include "coordinator/api/lower_case.h"
 #include "coordinator/api/work_folder.h"
 #include "fabric/name_beside.h"
 #include "fabric/status.h"
@@ -48,13 +49,6 @@ absl::StatusOr<std::vector<std::string>> filesOf(
 
 bool hasAny(std::string_view text, std::string_view characters) {
     return text.find_first_of(characters) != std::string_view::npos;
-}
-
-std::string lowerCase(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) {
-        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    });
-    return text;
 }
 
 /// The name by which GDAL knows a part of a file. It is put together here of pieces in which no
