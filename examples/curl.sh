@@ -17,16 +17,16 @@ ask "$server/configuration" -o "$folder/configuration.json"
 # A picture of it, in one line.
 ask "$server/image?width=320&height=180" -o "$folder/picture.png"
 
-# A picture as it is wanted.
-ask "$server/image" -o "$folder/picture.jpg" --json \
+# A picture as it is wanted; --json alone asks for JSON that has it as base64.
+ask "$server/image" -o "$folder/picture.jpg" --header 'Accept: image/jpeg' --json \
     '{"width":320,"height":180,"tauPixels":0.5,"shading":"SHADING_FLAT","format":"IMAGE_FORMAT_JPEG"}'
 
 # The same with the sun low in the west, and without the scene's second object.
-ask "$server/image" -o "$folder/evening.png" --json \
+ask "$server/image" -o "$folder/evening.png" --header 'Accept: image/png' --json \
     '{"width":320,"height":180,"look":{"sun":{"azimuthDegrees":270,"elevationDegrees":15},"hiddenObjects":[1]}}'
 
 # The upper half of a larger one: posters come in parts, as many as one likes.
-ask "$server/image" -o "$folder/upper.png" --json \
+ask "$server/image" -o "$folder/upper.png" --header 'Accept: image/png' --json \
     '{"width":640,"height":360,"part":{"y":180,"width":640,"height":180}}'
 
 # What is in its middle.

@@ -60,6 +60,8 @@ def main():
         raise SystemExit("called off")
     if operation["state"] != "OPERATION_STATE_DONE":
         raise SystemExit(operation["problem"] or operation["state"])
+    for note in operation["notes"]:
+        print(f"{output}: {note}")
     for data_set in ask(server, "GET", "/data-sets")["dataSets"]:
         if data_set["path"] == output:
             print(f"{output}: {data_set['triangles']} triangles, {data_set['levels']} levels, "

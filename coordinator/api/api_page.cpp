@@ -96,7 +96,9 @@ std::string commandOf(const v1::Rest& rest) {
                                  ? " --json @body.json"
                              : rest.method() == "DELETE" ? ""
                                                          : " --json '" + rest.example() + "'";
-    return fmt::format("curl{} -X {}{} '{}'", output, rest.method(), body, url);
+    // --json alone asks for the answer as JSON, too.
+    const char* const accept = rest.bytes().empty() ? "" : " --header 'Accept: image/png'";
+    return fmt::format("curl{} -X {}{}{} '{}'", output, rest.method(), body, accept, url);
 }
 
 /// By HTTP a call may have one field alone as its body, or as its answer.
@@ -148,17 +150,28 @@ std::string typeSections(Types& types) {
     return html;
 }
 
+/// More of its HTTP statuses.
+std::string_view othersOf(absl::StatusCode code) {
+    switch (code) {
+        case absl::StatusCode::kResourceExhausted:
+            return "; 413 of a body that is too long, 431 of headers, 503 while too many calls "
+                   "wait";
+        case absl::StatusCode::kFailedPrecondition:
+            return "; 412 where If-Match or If-None-Match is not met";
+        case absl::StatusCode::kUnimplemented:
+            return "; 405 of a method that the path does not have";
+        default:
+            return "";
+    }
+}
+
 std::string errorSection() {
     std::string rows;
-    for (const auto code : {absl::StatusCode::kInvalidArgument, absl::StatusCode::kUnauthenticated,
-                            absl::StatusCode::kPermissionDenied, absl::StatusCode::kNotFound,
-                            absl::StatusCode::kAlreadyExists, absl::StatusCode::kFailedPrecondition,
-                            absl::StatusCode::kResourceExhausted, absl::StatusCode::kUnimplemented,
-                            absl::StatusCode::kUnavailable, absl::StatusCode::kDeadlineExceeded,
-                            absl::StatusCode::kDataLoss, absl::StatusCode::kInternal}) {
-        const auto name = absl::StatusCodeToString(code);
-        rows += fmt::format("<tr id=\"{0}\"><td><code>{0}</code><td>{1}\n", std::string(name),
-                            httpStatusOf(code));
+    for (int number = 1; number <= static_cast<int>(absl::StatusCode::kUnauthenticated); ++number) {
+        const auto code = static_cast<absl::StatusCode>(number);
+        rows += fmt::format("<tr id=\"{0}\"><td><code>{0}</code><td>{1}{2}\n",
+                            std::string(absl::StatusCodeToString(code)), httpStatusOf(code),
+                            othersOf(code));
     }
     return "<h2>Errors</h2>\n<p>Errors are <code>application/problem+json</code> (RFC 9457): "
            "<code>detail</code> says what is wrong, <code>field</code> where in the request, and "

@@ -112,15 +112,14 @@ absl::StatusOr<fs::path> placeOf(const v1::BenchRequest& request,
             "output is '{}'; it must be a name and {}, such as orbit{}",
             fs::path(request.output()).filename().string(), kReportEnding, kReportEnding));
     const absl::StatusOr<fs::path> before = folder.existing(request.output());
-    std::error_code error;
-    if (!before.ok() || !fs::is_directory(*before, error)) {
-        const absl::StatusOr<fs::path> place = folder.place(request.output());
-        return place.ok() ? place : fabric::withContext(place.status(), "output");
-    }
-    if (!request.replace())
+    if (before.ok() && !request.replace())
         return absl::AlreadyExistsError(fmt::format(
             "output '{}' is there already; choose another name, or set replace", request.output()));
-    return *before;
+    std::error_code error;
+    if (before.ok() && fs::is_directory(*before, error))
+        return *before;
+    const absl::StatusOr<fs::path> place = folder.place(request.output());
+    return place.ok() ? place : fabric::withContext(place.status(), "output");
 }
 
 absl::Status write(const fs::path& path, const std::string& text) {
@@ -177,7 +176,7 @@ absl::Status carryOut(const BenchOrder& order, const RunProgram& run,
     RETURN_IF_ERROR(write(report / "scene.json", order.sceneJson));
     if (!order.flightName.empty())
         RETURN_IF_ERROR(write(report / order.flightName, order.flightJson));
-    const absl::Status end = runToItsEnd(order.arguments, report, run, progress, stop);
+    const absl::Status end = runToItsEnd(order.arguments, report, run, progress, stop).status();
     const bool isWhole =  // the summary is written last
         end.ok() || (order.measuresErrors && !stop.stop_requested() &&
                      fs::exists(report / fileNameOf(v1::REPORT_FILE_SUMMARY), error));

@@ -99,9 +99,11 @@ absl::StatusOr<v1::Operation> DataDesk::bench(const v1::BenchRequest& request,
         return before;
     ASSIGN_OR_RETURN(BenchOrder made, order(programs_.importMemoryBytes));
     return begin({request.request_id(), v1::OPERATION_KIND_BENCH, request.output(), asked,
-                  [this, made = std::move(made)](const Operations::Progress& progress,
-                                                 const std::stop_token& stop) {
-                      return carryOut(made, programs_.run, progress, stop);
+                  [this, made = std::move(made)](
+                      const Operations::Progress& progress,
+                      const std::stop_token& stop) -> absl::StatusOr<Operations::Notes> {
+                      RETURN_IF_ERROR(carryOut(made, programs_.run, progress, stop));
+                      return Operations::Notes();
                   }});
 }
 

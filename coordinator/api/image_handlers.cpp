@@ -8,6 +8,7 @@
 
 #include "coordinator/api/answer_shares.h"
 #include "coordinator/api/asked_view.h"
+#include "coordinator/api/field_names.h"
 #include "coordinator/api/handler_list.h"
 #include "coordinator/api/handlers.h"
 #include "coordinator/stream/statistics_feed.h"
@@ -133,9 +134,10 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const v1::RenderImageRequest
     *data.mutable_camera() = wire::toMessage(request.camera);
     data.set_tau_pixels(message.has_tau_pixels() ? message.tau_pixels() : request.tauPixels);
     data.set_shading(message.shading());
-    ASSIGN_OR_RETURN(const fabric::FrameData frameData, wire::fromMessage(data));
-    request.tauPixels = frameData.tauPixels;
-    request.shading = frameData.shading;
+    const absl::StatusOr<fabric::FrameData> frameData = wire::fromMessage(data);
+    RETURN_IF_ERROR(inRequest(frameData.status(), "", *v1::RenderImageRequest::descriptor()));
+    request.tauPixels = frameData->tauPixels;
+    request.shading = frameData->shading;
     request.wantsDepth = message.with_depth() || message.format() == v1::IMAGE_FORMAT_DEPTH;
     return request;
 }

@@ -3,13 +3,15 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
 
 #include "coordinator/api/data_sets.h"
+#include "coordinator/api/lower_case.h"
 #include "coordinator/api/work_folder.h"
 #include "fabric/name_beside.h"
 #include "fabric/status.h"
@@ -20,6 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMaxFiles = 1000;
+/// As `eyrie import terrain --error` takes them.
+constexpr double kLeastErrorMetres = 1e-6;
+constexpr double kMostErrorMetres = 1e6;
 
 /// The files' names as a program in the data folder has them: no option begins so.
 absl::StatusOr<std::vector<std::string>> filesOf(
@@ -44,13 +49,6 @@ absl::StatusOr<std::vector<std::string>> filesOf(
 
 bool hasAny(std::string_view text, std::string_view characters) {
     return text.find_first_of(characters) != std::string_view::npos;
-}
-
-std::string lowerCase(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) {
-        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    });
-    return text;
 }
 
 /// The name by which GDAL knows a part of a file. It is put together here of pieces in which no
@@ -120,10 +118,11 @@ absl::Status checkChoices(const v1::ImportRequest& request, v1::OperationKind ki
         return absl::InvalidArgumentError("imagery is of terrains, and the output is a mesh");
     if (kind == v1::OPERATION_KIND_IMPORT_MESH && request.has_error_metres())
         return absl::InvalidArgumentError("error_metres is of terrains, and the output is a mesh");
-    if (request.has_error_metres() &&
-        !(std::isfinite(request.error_metres()) && request.error_metres() > 0))
-        return absl::InvalidArgumentError(fmt::format(
-            "error_metres is {}; it must be more than 0, and a number", request.error_metres()));
+    if (request.has_error_metres() && !(request.error_metres() >= kLeastErrorMetres &&
+                                        request.error_metres() <= kMostErrorMetres))
+        return absl::InvalidArgumentError(
+            fmt::format("error_metres is {}; it must be from {} to {}", request.error_metres(),
+                        kLeastErrorMetres, kMostErrorMetres));
     return absl::OkStatus();
 }
 
@@ -148,13 +147,26 @@ absl::Status moveInto(const fs::path& made, const fs::path& place) {
     return absl::OkStatus();
 }
 
-/// `status` in the caller's terms: what was being made has the name that it was to get, and where
+/// `text` in the caller's terms: what was being made has the name that it was to get, and where
 /// the data folder is nobody is told.
-absl::Status named(const absl::Status& status, const std::string& made, const std::string& name) {
-    std::string text(status.message());
+std::string named(std::string text, const std::string& made, const std::string& name) {
     for (std::size_t at = text.find(made); at != std::string::npos; at = text.find(made, at + 1))
         text.replace(at, made.size(), name);
-    return {status.code(), text};
+    return text;
+}
+
+/// Of what the program's `--json` says.
+Operations::Notes notesOf(const std::string& output, const std::string& made,
+                          const std::string& name) {
+    google::protobuf::Struct json;
+    Operations::Notes notes;
+    if (!google::protobuf::util::JsonStringToMessage(output, &json).ok())
+        return notes;
+    const google::protobuf::Value list =
+        json.fields().contains("notes") ? json.fields().at("notes") : google::protobuf::Value();
+    for (const google::protobuf::Value& note : list.list_value().values())
+        notes.push_back(named(note.string_value(), made, name));
+    return notes;
 }
 
 }  // namespace
@@ -182,8 +194,11 @@ absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
             ASSIGN_OR_RETURN(source, nameOfPart(request.subdataset(), source));
         }
     const bool isTerrain = order.kind == v1::OPERATION_KIND_IMPORT_TERRAIN;
-    order.arguments = {"import", isTerrain ? "terrain" : "mesh", "--progress-json", "--json",
-                       "--memory=" + std::to_string(memoryBytes)};
+    // Sources come first: what follows --imagery would be more pictures.
+    order.arguments = {"import", isTerrain ? "terrain" : "mesh"};
+    order.arguments.insert(order.arguments.end(), sources.begin(), sources.end());
+    order.arguments.insert(order.arguments.end(), {"--progress-json", "--json",
+                                                   "--memory=" + std::to_string(memoryBytes)});
     for (const std::string& each : imagery) order.arguments.push_back("--imagery=" + each);
     if (request.has_error_metres())
         order.arguments.push_back(fmt::format("--error={}", request.error_metres()));
@@ -191,21 +206,26 @@ absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
         order.arguments.emplace_back("--orient");
     if (!request.normals().empty())
         order.arguments.push_back("--normals=" + request.normals());
-    order.arguments.insert(order.arguments.end(), sources.begin(), sources.end());
     return order;
 }
 
-absl::Status carryOut(const ImportOrder& order, const access::DataFolder& folder,
-                      const RunProgram& run, const Operations::Progress& progress,
-                      const std::stop_token& stop) {
+absl::StatusOr<Operations::Notes> carryOut(const ImportOrder& order,
+                                           const access::DataFolder& folder, const RunProgram& run,
+                                           const Operations::Progress& progress,
+                                           const std::stop_token& stop) {
     ASSIGN_OR_RETURN(const WorkFolder work, WorkFolder::in(order.output.parent_path(), "import"));
     const fs::path made = work.path() / order.output.filename();
     std::vector<std::string> arguments = order.arguments;
     arguments.push_back("--output=" + made.string());
-    RETURN_IF_ERROR(named(runToItsEnd(arguments, folder.path(), run, progress, stop), made.string(),
-                          order.output.lexically_relative(folder.path()).string()));
+    const std::string name = order.output.lexically_relative(folder.path()).string();
+    const absl::StatusOr<std::string> output =
+        runToItsEnd(arguments, folder.path(), run, progress, stop);
+    if (!output.ok())
+        return absl::Status(output.status().code(),
+                            named(std::string(output.status().message()), made.string(), name));
     RETURN_IF_ERROR(checkOutput(order, order.output.filename().string()));
-    return moveInto(made, order.output);
+    RETURN_IF_ERROR(moveInto(made, order.output));
+    return notesOf(*output, made.string(), name);
 }
 
 }  // namespace eyrie::api

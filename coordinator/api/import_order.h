@@ -31,9 +31,11 @@ absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
                                           std::uint64_t memoryBytes);
 
 /// Carries it out. What it makes is made in a folder of its own beside its place, and moved there
-/// when it is whole; that folder goes, whatever happens to the program.
-absl::Status carryOut(const ImportOrder& order, const access::DataFolder& folder,
-                      const RunProgram& run, const Operations::Progress& progress,
-                      const std::stop_token& stop);
+/// when it is whole; that folder goes, whatever happens to the program. Answers with what the
+/// program notes of it.
+absl::StatusOr<Operations::Notes> carryOut(const ImportOrder& order,
+                                           const access::DataFolder& folder, const RunProgram& run,
+                                           const Operations::Progress& progress,
+                                           const std::stop_token& stop);
 
 }  // namespace eyrie::api

@@ -14,6 +14,7 @@ namespace eyrie::api {
 namespace {
 
 constexpr std::size_t kMaxIdBytes = 64;
+constexpr std::size_t kMaxNotes = 20;
 /// Before that, how long a stage takes is a guess.
 constexpr double kSettledSeconds = 0.3;
 
@@ -37,6 +38,14 @@ std::string newId() {
 
 double seconds(Operations::Clock::duration time) {
     return std::chrono::duration<double>(time).count();
+}
+
+void setNotes(const Operations::Notes& notes, v1::Operation& told) {
+    const std::size_t first = notes.size() <= kMaxNotes ? notes.size() : kMaxNotes - 1;
+    for (std::size_t i = 0; i < first; ++i) told.add_notes(stream::sanitised(notes[i]));
+    if (first < notes.size())
+        told.add_notes(
+            fmt::format("and {} more; `eyrie import` tells them all", notes.size() - first));
 }
 
 }  // namespace
@@ -167,13 +176,15 @@ void Operations::carryOut(const Shared& entry, const Work& work) {
         entry->begun = entry->stageBegun = now_();
     }
     const std::stop_token stop = entry->stop.get_token();
-    const absl::Status status =
+    const absl::StatusOr<Notes> notes =
         stop.stop_requested()
             ? absl::CancelledError("")
             : work([&](std::string_view stage, double fraction) { note(*entry, stage, fraction); },
                    stop);
     const std::lock_guard lock(mutex_);
-    end(*entry, status);
+    if (notes.ok())
+        setNotes(*notes, entry->told);
+    end(*entry, notes.status());
 }
 
 void Operations::note(Entry& entry, std::string_view stage, double fraction) {

@@ -33,8 +33,11 @@ public:
 
     /// Told the stage and how far that is, 0 to 1.
     using Progress = std::function<void(std::string_view stage, double fraction)>;
+    /// Of what was made, for people, such as what was left out.
+    using Notes = std::vector<std::string>;
     /// Ends soon, and leaves nothing, after `stop`.
-    using Work = std::function<absl::Status(const Progress& progress, const std::stop_token& stop)>;
+    using Work =
+        std::function<absl::StatusOr<Notes>(const Progress& progress, const std::stop_token& stop)>;
 
     struct Order {
         std::string id = {};  ///< empty: one is made

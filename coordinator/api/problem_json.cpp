@@ -3,10 +3,10 @@
 
 #include <string_view>
 
-#include <google/protobuf/descriptor.h>
 #include <google/protobuf/struct.pb.h>
 #include <google/protobuf/util/json_util.h>
 
+#include "coordinator/api/field_names.h"
 #include "coordinator/stream/viewer_messages.h"
 
 namespace eyrie::api {
@@ -40,25 +40,20 @@ std::string_view titleOf(absl::StatusCode code) {
     }
 }
 
-/// That a message begins with. "frame_data.tau_pixels" of messages that several calls share is the
-/// request's "tauPixels"; one that the request does not have is what is said not to be there.
+/// That a message begins with, in JSON's names: "jpeg_quality" is "jpegQuality". One that the
+/// request does not have is what is said not to be there.
 std::string fieldOf(std::string_view message, const google::protobuf::Descriptor* request) {
-    constexpr std::string_view kShared = "frame_data.";
     constexpr std::string_view kUnknown = "there is no field '";
     if (request == nullptr)
         return "";
     const bool isUnknown = message.starts_with(kUnknown);
     if (isUnknown)
         message.remove_prefix(kUnknown.size());
-    if (message.starts_with(kShared))
-        message.remove_prefix(kShared.size());
     const std::string_view path = message.substr(
         0, message.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_.[]"
                                      "0123456789"));
-    const std::string first(path.substr(0, path.find_first_of(".[")));
     if (isUnknown ? !message.substr(path.size()).starts_with('\'')
-                  : request->FindFieldByName(first) == nullptr &&
-                        request->FindFieldByCamelcaseName(first) == nullptr)
+                  : !beginsWithField(path, *request))
         return "";
     std::string field;
     for (std::size_t i = 0; i < path.size(); ++i)

@@ -15,6 +15,7 @@
 #include "coordinator/api/api_page.h"
 #include "coordinator/api/bench_reports.h"
 #include "coordinator/api/handlers.h"
+#include "coordinator/api/lower_case.h"
 #include "coordinator/api/media_types.h"
 #include "coordinator/api/openapi.h"
 #include "coordinator/api/problem_json.h"
@@ -67,11 +68,13 @@ bool wantsJson(std::string_view accept) {
 
 /// Pages of other sites can send a browser's forms here, but no JSON.
 absl::Status checkContentType(const RestRequest& request) {
-    const std::string_view type(request.contentType);
-    if (request.body.empty() || type.starts_with("application/json"))
+    std::string type = lowerCase(request.contentType.substr(0, request.contentType.find(';')));
+    type.erase(type.find_last_not_of(" \t") + 1);
+    if (request.body.empty() || type == "application/json")
         return absl::OkStatus();
-    return absl::InvalidArgumentError(fmt::format(
-        "the body's Content-Type is '{}'; it must be application/json", type.substr(0, 64)));
+    return absl::InvalidArgumentError(
+        fmt::format("the body's Content-Type is '{}'; it must be application/json",
+                    std::string_view(request.contentType).substr(0, 64)));
 }
 
 /// Calls that something comes of more than once have such a field.

@@ -28,15 +28,15 @@ std::string_view takeSegment(std::string_view& path) {
     return segment;
 }
 
-std::optional<std::map<std::string, std::string>> match(std::string_view form,
+std::optional<std::map<std::string, std::string>> match(const v1::Rest& rest,
                                                         std::string_view path) {
     std::map<std::string, std::string> fields;
+    std::string_view form = rest.path();
     while (!form.empty()) {
         const std::string_view expected = takeSegment(form);
         const bool isField = expected.starts_with('{');
-        // What comes last takes all that is left.
-        const std::string_view segment =
-            isField && form.empty() ? std::exchange(path, {}) : takeSegment(path);
+        const bool takesAll = isField && form.empty() && rest.slashes();
+        const std::string_view segment = takesAll ? std::exchange(path, {}) : takeSegment(path);
         if (!isField && segment != expected)
             return std::nullopt;
         if (!isField)
@@ -65,7 +65,7 @@ bool changes(const v1::Rest& rest) {
 FoundRoute findRoute(std::string_view method, std::string_view path) {
     FoundRoute found;
     for (const Route& route : restRoutes()) {
-        auto fields = match(route.rest.path(), path);
+        auto fields = match(route.rest, path);
         if (!fields)
             continue;
         found.allowed += (found.allowed.empty() ? "" : ", ") + route.rest.method();

@@ -33,7 +33,7 @@ struct FoundRoute {
     std::string allowed;  ///< methods that the path has, for an Allow header; empty: no such path
 };
 
-/// `path` below /api/v1, as it was sent. A field at the path's end may have slashes in it.
+/// `path` below /api/v1, as it was sent. Of Rest::slashes a field at its end may have some.
 FoundRoute findRoute(std::string_view method, std::string_view path);
 
 /// Text with %XX for some of its bytes; nothing where what follows a % is not of that form.

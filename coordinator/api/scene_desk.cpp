@@ -11,6 +11,7 @@
 #include <google/protobuf/util/message_differencer.h>
 
 #include "coordinator/api/data_desk.h"
+#include "coordinator/api/field_names.h"
 #include "coordinator/api/quotas.h"
 #include "coordinator/api/state_file.h"
 #include "eyrie/v1/kept_state.pb.h"
@@ -197,8 +198,9 @@ absl::StatusOr<fabric::Scene> SceneDesk::resolved(v1::Scene message,
         return quotas_.counted(observe::Quota::Scene, status);
     else if (!status.ok())
         return status;
-    ASSIGN_OR_RETURN(fabric::Scene scene, wire::fromMessage(message));
-    RETURN_IF_ERROR(checkReach(files, scene, stop));
+    absl::StatusOr<fabric::Scene> scene = wire::fromMessage(message);
+    RETURN_IF_ERROR(inRequest(scene.status(), "scene.", *v1::Scene::descriptor()));
+    RETURN_IF_ERROR(checkReach(files, *scene, stop));
     return scene;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/api/field_names.h"
 #include "coordinator/api/handler_list.h"
 #include "coordinator/api/handlers.h"
 #include "coordinator/api/session_message.h"
@@ -30,7 +31,7 @@ absl::StatusOr<SharedSession> sessionOf(const stream::SessionBook& sessions,
                                            stream::sanitised(id.substr(0, 64))));
 }
 
-/// What of the change is given, checked as what viewers ask for is.
+/// What of the change is given, checked as what viewers ask for is. Errors name its fields.
 absl::StatusOr<stream::ViewChange> changeOf(const v1::SessionChange& message) {
     v1::FrameData data;
     data.set_version(1);
@@ -96,10 +97,12 @@ void addSessionHandlers(Handlers& handlers, coordinator::FrameSource& frames,
         [&frames, &sessions](const v1::ChangeSessionRequest& request,
                              const Call&) -> absl::StatusOr<v1::ChangeSessionResponse> {
             ASSIGN_OR_RETURN(const SharedSession session, sessionOf(sessions, request.id()));
-            ASSIGN_OR_RETURN(const stream::ViewChange change, changeOf(request.change()));
-            if (change.shown)
-                RETURN_IF_ERROR(checkNames(frames, *change.shown));
-            RETURN_IF_ERROR(session->change(change));
+            const absl::StatusOr<stream::ViewChange> change = changeOf(request.change());
+            RETURN_IF_ERROR(
+                inRequest(change.status(), "change.", *v1::SessionChange::descriptor()));
+            if (change->shown)
+                RETURN_IF_ERROR(checkNames(frames, *change->shown));
+            RETURN_IF_ERROR(session->change(*change));
             v1::ChangeSessionResponse response;
             *response.mutable_session() = sessionMessage(*session);
             return response;

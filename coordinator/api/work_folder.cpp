@@ -48,18 +48,20 @@ WorkFolder::~WorkFolder() {
         fs::remove_all(path_, error);
 }
 
-absl::Status runToItsEnd(const std::vector<std::string>& arguments, const fs::path& folder,
-                         const RunProgram& run, const Operations::Progress& progress,
-                         const std::stop_token& stop) {
+absl::StatusOr<std::string> runToItsEnd(const std::vector<std::string>& arguments,
+                                        const fs::path& folder, const RunProgram& run,
+                                        const Operations::Progress& progress,
+                                        const std::stop_token& stop) {
     LastWords words;
     const auto heard = [&](std::string_view line) {
         if (!tellProgress(line, progress))
             words.hear(line);
     };
-    ASSIGN_OR_RETURN(const ProgramEnd end, run(arguments, folder, heard, stop));
+    ASSIGN_OR_RETURN(ProgramEnd end, run(arguments, folder, heard, stop));
     if (stop.stop_requested())
         return absl::CancelledError("the operation was called off");
-    return words.statusOf(end);
+    RETURN_IF_ERROR(words.statusOf(end));
+    return std::move(end.output);
 }
 
 }  // namespace eyrie::api

@@ -34,10 +34,11 @@ private:
     std::filesystem::path path_;
 };
 
-/// `run` of `arguments` in `folder`, telling what the program's `--progress-json` says. Errors:
-/// those of `run` and LastWords::statusOf; Cancelled after `stop`.
-absl::Status runToItsEnd(const std::vector<std::string>& arguments,
-                         const std::filesystem::path& folder, const RunProgram& run,
-                         const Operations::Progress& progress, const std::stop_token& stop);
+/// What `run` of `arguments` in `folder` writes to its standard output, telling what the program's
+/// `--progress-json` says. Errors: those of `run` and LastWords::statusOf; Cancelled after `stop`.
+absl::StatusOr<std::string> runToItsEnd(const std::vector<std::string>& arguments,
+                                        const std::filesystem::path& folder, const RunProgram& run,
+                                        const Operations::Progress& progress,
+                                        const std::stop_token& stop);
 
 }  // namespace eyrie::api

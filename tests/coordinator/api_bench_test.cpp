@@ -226,6 +226,9 @@ TEST_F(ApiBench, ReplacesAReportOnlyWhenToldTo) {
     EXPECT_FALSE(fs::exists(data() / "one.bench/more.txt"));
     EXPECT_TRUE(fs::exists(data() / "one.bench/summary.json"));
     EXPECT_THAT(names(), ElementsAre("a.eyt", "one.bench"));
+    std::ofstream(data() / "file.bench") << "x";
+    EXPECT_EQ(statusOf(R"({"output":"file.bench","requestId":"d"})"), 409);
+    fs::remove(data() / "file.bench");
     // Asked for once more, it is the same.
     EXPECT_EQ(run("c", R"(,"replace":true)"), v1::OPERATION_STATE_DONE);
     EXPECT_EQ(commands_.size(), 2U);

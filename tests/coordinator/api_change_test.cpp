@@ -121,6 +121,22 @@ TEST_F(Rest, ScenesNameNothingOutsideTheDataFolder) {
     EXPECT_EQ(frames_.status().scene, coordinator::readyStatus().scene);
 }
 
+TEST_F(Rest, ScenesAreToldWhichOfTheirFieldsIsWrong) {
+    std::ofstream(folder_.path("data/a.eyt")) << "x";
+    for (const auto& [more, field] :
+         {std::pair(R"("transform":{"scale":0}}])", "scene.objects[0].transform.scale"),
+          std::pair(R"("colour":[1,2]}])", "scene.objects[0].colour"),
+          std::pair(R"(}],"pointLights":[{"colour":[1,1,-1],"position":[0,0,0],"reach":1}])",
+                    "scene.pointLights[0].colour[2]"),
+          std::pair(R"(}],"ambient":2)", "scene.ambient")}) {
+        const std::string separator = more[0] == '}' ? "" : ",";
+        const RestAnswer refused =
+            send("PUT", "/scene", R"({"objects":[{"terrain":"a.eyt")" + separator + more + "}");
+        expectProblem(refused, 400, "INVALID_ARGUMENT");
+        EXPECT_EQ(text(refused, "field"), field) << *refused.body;
+    }
+}
+
 TEST_F(Rest, ChangesAreMadeToWhatTheyWereMeantForOrNotAtAll) {
     const auto flight = [](const std::string& name) {
         return R"({"name":")" + name +

@@ -13,6 +13,7 @@
 
 #include "coordinator/api/api.h"
 #include "coordinator/api/data_sets.h"
+#include "eyrie/v1/operation.pb.h"
 #include "tests/coordinator/fake_frame_source.h"
 #include "tests/service/eventually.h"
 #include "tests/support/temporary_folder.h"
@@ -182,7 +183,7 @@ TEST_F(RestData, ImportsIntoTheDataFolder) {
     ASSERT_EQ(commands_.size(), 1U);
     EXPECT_EQ(commands_[0][1], "terrain");
     EXPECT_THAT(commands_[0], Contains("--error=0.5"));
-    EXPECT_THAT(commands_[0], Contains("./survey/dem.tif"));
+    EXPECT_EQ(commands_[0][2], "./survey/dem.tif");
     EXPECT_THAT(*ask("GET", "/operations").body, HasSubstr("\"one\""));
     EXPECT_EQ(ask("DELETE", "/operations/one").status, 200);
     EXPECT_EQ(ask("GET", "/operations/one").status, 404);
@@ -239,6 +240,49 @@ TEST_F(RestData, SaysWhatCouldNotBeMadeByItsNameInTheFolder) {
     EXPECT_EQ(endOf("full"), "OPERATION_STATE_FAILED");
     EXPECT_EQ(member(ask("GET", "/operations/full"), "problem"),
               "survey/dem.eyt: write failed: No space left on device; see survey/dem.eyt");
+}
+
+TEST_F(RestData, SaysWhatIsWrongAndNotWhichHelpToRead) {
+    run_ = [](const auto&, const auto& heard, const auto&) {
+        heard("eyrie: --error: Value 2 not in range 0 to 1");
+        heard("`eyrie import terrain --help` explains it");
+        return ProgramEnd{false, 2, ""};
+    };
+    ASSERT_EQ(ask("POST", "/imports", import(), "refused").status, 200);
+    EXPECT_EQ(endOf("refused"), "OPERATION_STATE_FAILED");
+    EXPECT_EQ(member(ask("GET", "/operations/refused"), "problem"),
+              "--error: Value 2 not in range 0 to 1");
+}
+
+TEST_F(RestData, TellsWhatAnImportLeftOut) {
+    run_ = [](const auto& arguments, const auto&, const auto&) {
+        EXPECT_TRUE(writeOutput(arguments).ok());
+        const std::string made = arguments.back().substr(std::string("--output=").size());
+        return ProgramEnd{
+            false, 0,
+            fmt::format(R"({{"levels": 3, "notes": ["12 posts are void", "see {}"]}})", made)};
+    };
+    const auto notes = [&](const std::string& id) {
+        EXPECT_EQ(endOf(id), "OPERATION_STATE_DONE");
+        v1::Operation operation;
+        EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(
+                        *ask("GET", "/operations/" + id).body, &operation)
+                        .ok());
+        return std::vector<std::string>(operation.notes().begin(), operation.notes().end());
+    };
+    ASSERT_EQ(ask("POST", "/imports", import(), "one").status, 200);
+    EXPECT_THAT(notes("one"), ElementsAre("12 posts are void", "see survey/dem.eyt"));
+
+    // What tells none, or nothing that can be read, has none.
+    for (const char* output : {"", "no JSON", "[]", "{}", R"({"notes": 5})"}) {
+        run_ = [output](const auto& arguments, const auto&, const auto&) {
+            EXPECT_TRUE(writeOutput(arguments).ok());
+            return ProgramEnd{false, 0, output};
+        };
+        const RestAnswer begun = ask("POST", "/imports", import(R"(,"replace":true)"));
+        ASSERT_EQ(begun.status, 200) << *begun.body;
+        EXPECT_THAT(notes(member(begun, "id")), IsEmpty()) << output;
+    }
 }
 
 TEST_F(RestData, LeavesNothingOfWhatIsCalledOff) {
@@ -324,7 +368,8 @@ TEST_F(RestData, RefusesWhatIsNotOfTheKind) {
     EXPECT_TRUE(isRefused("a.eym", R"("imagery":["survey/dem.tif"])"));
     EXPECT_TRUE(isRefused("a.eym", R"("errorMetres":1)"));
     EXPECT_TRUE(isRefused("a.eyt", R"("errorMetres":-1)"));
-    EXPECT_TRUE(isRefused("a.eyt", R"("errorMetres":"NaN")"));
+    for (const char* error : {"\"NaN\"", "\"Infinity\"", "0", "1e-7", "1.1e6"})
+        EXPECT_TRUE(isRefused("a.eyt", fmt::format("\"errorMetres\":{}", error))) << error;
     EXPECT_EQ(ask("POST", "/imports", R"({"output":"a.eyt"})").status, 400);
 }
 
@@ -366,7 +411,7 @@ TEST_F(RestData, ImportsOneOfSeveralRastersOfAFile) {
         const RestAnswer answer = importOf(source, part);
         EXPECT_EQ(answer.status, 200) << *answer.body;
         EXPECT_EQ(endOf(member(answer, "id")), "OPERATION_STATE_DONE");
-        return commands_.back().at(commands_.back().size() - 2);
+        return commands_.back().at(2);
     };
     EXPECT_EQ(named("two.gpkg", "alps"), "GPKG:./two.gpkg:alps");
     EXPECT_EQ(named("two.TIF", "20"), "GTIFF_DIR:20:./two.TIF");

@@ -3,6 +3,7 @@
 #include <future>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "coordinator/api/call_roles.h"
@@ -89,6 +90,23 @@ TEST_F(ApiSessions, AreNotMovedWhereNothingCanBeSeen) {
         EXPECT_EQ(answer.status, 400) << wrong << *answer.body;
     }
     EXPECT_FALSE(api_->sessions()->find("tour")->facts().view);
+}
+
+TEST_F(ApiSessions, AreToldWhichFieldOfTheChangeIsWrong) {
+    stream::Sessions sessions(frames_, stream::moving(1), api_->sessions());
+    Browser leader(sessions, {"tour"});
+    for (const auto& [wrong, field, detail] :
+         {std::tuple(R"({"tauPixels":5000})", "change.tauPixels", "change.tau_pixels is 5000;"),
+          std::tuple(R"({"shading":99})", "change.shading", "change.shading is 99,"),
+          std::tuple(R"({"camera":{"eye":[0,0]}})", "change.camera.eye", "change.camera.eye has 2"),
+          std::tuple(R"({"look":{"exaggeration":1e9}})", "change.look.exaggeration",
+                     "change.look.exaggeration is "),
+          std::tuple(R"({"shown":{"eye":99}})", "change.shown.eye", "change.shown.eye is 99")}) {
+        const RestAnswer answer = ask("PATCH", "/sessions/tour", wrong);
+        EXPECT_EQ(answer.status, 400) << wrong;
+        EXPECT_THAT(*answer.body, HasSubstr(fmt::format(R"("field":"{}")", field))) << wrong;
+        EXPECT_THAT(*answer.body, HasSubstr(fmt::format(R"("detail":"{})", detail))) << wrong;
+    }
 }
 
 TEST_F(ApiSessions, AreNotShownWhatTheConfigurationHasNot) {

@@ -54,6 +54,9 @@ TEST_F(Rest, SaysWhichFieldIsWrongAndWhatToDo) {
     const RestAnswer tau = send("POST", "/image", R"({"tauPixels":0})");
     expectProblem(tau, 400, "INVALID_ARGUMENT");
     EXPECT_EQ(text(tau, "field"), "tauPixels");
+    EXPECT_THAT(text(tau, "detail"), StartsWith("tau_pixels is 0;"));
+    EXPECT_THAT(text(send("POST", "/image", R"({"shading":99})"), "detail"),
+                StartsWith("shading is 99,"));
     const RestAnswer width = send("POST", "/image", R"({"width":8193})");
     expectProblem(width, 400, "INVALID_ARGUMENT");
     EXPECT_EQ(text(width, "field"), "width");
@@ -94,6 +97,10 @@ TEST_F(Rest, RefusesWhatItDoesNotKnow) {
     expectProblem(get("/image?camera=1"), 400, "INVALID_ARGUMENT");
     expectProblem(get("/nothing"), 404, "NOT_FOUND");
     expectProblem(get("/status/more"), 404, "NOT_FOUND");
+    expectProblem(get("/operations/one/more"), 404, "NOT_FOUND");
+    const RestAnswer cancel = get("/operations/one/cancel");
+    expectProblem(cancel, 405, "UNIMPLEMENTED");
+    EXPECT_EQ(header(cancel, "Allow"), "POST");
     expectProblem(ask({"GET", "/status", "{}", "application/json"}), 400, "INVALID_ARGUMENT");
     const RestAnswer method = send("DELETE", "/image", "");
     expectProblem(method, 405, "UNIMPLEMENTED");
@@ -126,9 +133,16 @@ TEST_F(Rest, RefusesPathsAndQueriesThatAreNotUtf8AndLogsNothingOfThem) {
 }
 
 TEST_F(Rest, TakesNoFormsOfOtherSitesPages) {
-    expectProblem(ask({"POST", "/image", R"({"width":20})", "text/plain"}), 400,
-                  "INVALID_ARGUMENT");
+    for (const char* type :
+         {"text/plain", "", "application/json-seq", "text/plain;application/json"})
+        expectProblem(ask({"POST", "/image", R"({"width":20})", type}), 400, "INVALID_ARGUMENT");
     EXPECT_THAT(frames_.requests(), IsEmpty());
+}
+
+TEST_F(Rest, TakesJsonHoweverItsTypeIsWritten) {
+    for (const char* type :
+         {"application/json", "Application/JSON", "application/json ;charset=UTF-8"})
+        EXPECT_EQ(ask({"POST", "/image", R"({"width":20})", type}).status, 200) << type;
 }
 
 TEST_F(Rest, ThePageFindsItsStyleBelowAnyPathOfAProxy) {
@@ -174,9 +188,21 @@ TEST_F(Rest, ThePageSaysWhichFieldIsTheWholeBodyOrAnswer) {
 
 TEST_F(Rest, ThePageHasAPlaceForEachErrorThatNamesOne) {
     const std::string page = *api_->rest().answer({"GET", "/api"}).body;
-    for (const auto code : {absl::StatusCode::kAlreadyExists, absl::StatusCode::kFailedPrecondition,
-                            absl::StatusCode::kInvalidArgument, absl::StatusCode::kNotFound})
+    for (const auto code : {absl::StatusCode::kAborted, absl::StatusCode::kAlreadyExists,
+                            absl::StatusCode::kCancelled, absl::StatusCode::kFailedPrecondition,
+                            absl::StatusCode::kInvalidArgument, absl::StatusCode::kNotFound,
+                            absl::StatusCode::kOutOfRange, absl::StatusCode::kUnknown})
         EXPECT_THAT(page, HasSubstr("<tr id=\"" + absl::StatusCodeToString(code) + "\">"));
+    EXPECT_THAT(page, HasSubstr("<code>UNIMPLEMENTED</code><td>501; 405 of"));
+    EXPECT_THAT(page, HasSubstr("<code>RESOURCE_EXHAUSTED</code><td>429; 413 of"));
+}
+
+TEST_F(Rest, ThePageAsksForPicturesAndNotForJsonOfThem) {
+    const std::string page = *api_->rest().answer({"GET", "/api"}).body;
+    const std::size_t from = page.find("curl -o picture.png -X POST");
+    ASSERT_NE(from, std::string::npos);
+    EXPECT_THAT(page.substr(from, page.find('\n', from) - from),
+                HasSubstr("--header 'Accept: image/png'"));
 }
 
 TEST_F(Rest, TheDocumentTellsOfTokensAndHeaders) {

@@ -39,7 +39,7 @@ public:
     }
 
     std::atomic<int> begun{0};
-    absl::Status result;
+    absl::StatusOr<Operations::Notes> result = Operations::Notes();
 
 private:
     std::mutex mutex_;
@@ -164,6 +164,22 @@ TEST_F(OperationsTest, SayWhyTheyFailed) {
     ASSERT_TRUE(operations_.begin(order("a")).ok());
     ASSERT_TRUE(becomes("a", v1::OPERATION_STATE_FAILED));
     EXPECT_EQ(operations_.find("a")->problem(), "dem.tif: is damaged");
+}
+
+TEST_F(OperationsTest, TellAtMostTwentyNotesAndHowManyMoreThereAre) {
+    Operations::Notes notes(20, "a\nnote");
+    gate_.result = notes;
+    gate_.open();
+    ASSERT_TRUE(operations_.begin(order("a")).ok());
+    ASSERT_TRUE(becomes("a", v1::OPERATION_STATE_DONE));
+    EXPECT_EQ(operations_.find("a")->notes_size(), 20);
+    EXPECT_EQ(operations_.find("a")->notes(19), "a note");
+    notes.push_back(std::string(1000, 'x'));
+    gate_.result = notes;
+    ASSERT_TRUE(operations_.begin(order("b")).ok());
+    ASSERT_TRUE(becomes("b", v1::OPERATION_STATE_DONE));
+    EXPECT_EQ(operations_.find("b")->notes_size(), 20);
+    EXPECT_THAT(operations_.find("b")->notes(19), HasSubstr("and 2 more"));
 }
 
 TEST_F(OperationsTest, HaveNamesThatFitIntoPaths) {

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <thread>
@@ -78,6 +80,11 @@ protected:
         const std::string output = server_->output();
         const std::string address = output.substr(output.find("gRPC at ") + 8);
         return address.substr(0, address.find('\n'));
+    }
+
+    static std::string textOf(const std::string& path) {
+        std::ifstream file(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
     }
 
     static std::string curl(std::vector<std::string> arguments, const std::string& path) {
@@ -238,6 +245,22 @@ TEST_F(ApiExamples, AFileIsImportedAndCanBeShown) {
     EXPECT_THAT(wrong.errors, HasSubstr("must end in .eyt"));
 }
 
+TEST_F(ApiExamples, AFileIsImportedWithAPictureOverIt) {
+    std::ofstream(folder_->path("data/ground.ppm"), std::ios::binary) << "P6 2 2 255\n"
+                                                                      << std::string(12, 'a');
+    curl({"--json", R"({"sources":["example.tif"],"imagery":["ground.ppm"],)"
+                    R"("output":"draped.eyt","requestId":"draped"})"},
+         "/imports");
+    std::string told;
+    EXPECT_TRUE(test::eventually(seconds(60), [&] {
+        told = curl({}, "/operations/draped");
+        return told.find("STATE_DONE") != std::string::npos;
+    })) << told;
+    EXPECT_THAT(told, HasSubstr("stretched over the whole terrain")) << "a note of the import";
+    const test::Outcome info = test::eyrie({"info", folder_->path("data/draped.eyt"), "--json"});
+    EXPECT_THAT(info.output, HasSubstr("\"imagery\": {"));
+}
+
 TEST_F(ApiExamples, AnImportThatIsCalledOffLeavesNothing) {
     ASSERT_TRUE(test::succeeded({"synth", "terrain", "--size", "4097", "--seed", "2", "--quiet",
                                  "-o", folder_->path("data/large.tif")}));
@@ -273,6 +296,10 @@ TEST_F(ApiExamples, CurlMakesTheCallsMostAskedFor) {
                              "evening.png", "upper.png", "pick.json", "data-sets.json",
                              "operations.json", "sessions.json", "frame.txt"})
         EXPECT_GT(std::filesystem::file_size(folder + "/" + name), 10U) << name;
+    for (const auto& [name, begin] :
+         {std::pair("picture.png", "\x89PNG"), std::pair("picture.jpg", "\xff\xd8\xff"),
+          std::pair("evening.png", "\x89PNG"), std::pair("upper.png", "\x89PNG")})
+        EXPECT_THAT(textOf(folder + "/" + name), testing::StartsWith(begin)) << name;
 }
 
 /// What the first who connects asks for; the answer is 401.
