@@ -272,7 +272,7 @@ void addBench(CLI::App& app, Run& run) {
         ->type_name("FOLDER");
     addCompareOptions(*command, *options);
     addDrawingOptions(*command, options->pictures.drawing);
-    command->add_flag("--quiet", options->pictures.quiet, "Only errors");
+    command->add_flag("--quiet", options->pictures.quiet, "Only warnings and errors");
     command->add_flag("--json", options->json, "Print the summary as JSON");
     command->add_flag("--progress-json", options->progressJson,
                       "Progress as lines of JSON on standard error, for programs: a run, and how "

@@ -17,6 +17,7 @@
 #include "cli/output_reader.h"
 #include "cli/picture_bands.h"
 #include "cli/progress_bar.h"
+#include "coordinator/stream/home_camera.h"
 #include "fabric/status.h"
 #include "renderer/mesh/output_file.h"
 #include "video/load.h"
@@ -48,6 +49,34 @@ absl::StatusOr<std::vector<fabric::FlightKey>> framesFor(const FlightVideo& vide
     return bench::framesOf(flight, static_cast<int>(count));
 }
 
+/// What became of the pictures of one video.
+struct Drawn {
+    double worstPixels = 0;
+    std::size_t empty = 0;
+    std::string_view whyEmpty = {};  ///< coordinator::whyEmpty() of the last that is
+    std::size_t incomplete = 0;
+
+    void add(const coordinator::RenderedFrame& frame) {
+        worstPixels = std::max(worstPixels, frame.statistics.tauAchievedPixels);
+        incomplete += frame.statistics.complete ? 0 : 1;
+        if (const std::string_view why = coordinator::whyEmpty(frame); !why.empty()) {
+            ++empty;
+            whyEmpty = why;
+        }
+    }
+};
+
+void tellOf(const Drawn& drawn, std::size_t count, const std::string& out, double tauPixels) {
+    if (drawn.empty > 0)
+        tell(fmt::format("{}: {} of {} pictures are empty. {}", out, drawn.empty, count,
+                         drawn.whyEmpty));
+    if (drawn.incomplete > 0)
+        tell(fmt::format("{}: {} of {} pictures are incomplete", out, drawn.incomplete, count));
+    tell(fmt::format(
+        "{}: {} pictures, error at most {} of {:.3g} pixels asked, and what coding adds", out,
+        count, boundText(drawn.worstPixels), tauPixels));
+}
+
 }  // namespace
 
 bool isVideoName(const std::string& path) {
@@ -72,17 +101,19 @@ absl::Status writeFlightVideo(const FlightVideo& video, const std::string& scene
                               return file.writeAt(offset, bytes);
                           }));
     ASSIGN_OR_RETURN(const auto source, PictureSource::open(scene, pictures, stop));
-    ASSIGN_OR_RETURN(const auto frames, framesFor(video, source->sceneInfo().bounds));
+    ASSIGN_OR_RETURN(const auto frames,
+                     framesFor(video, stream::exaggeratedBounds(source->sceneInfo(),
+                                                                request.look.exaggeration)));
     ProgressBar bar(video.out, static_cast<double>(frames.size()), "pictures",
                     ProgressBar::styleFor(video.quiet));
     coordinator::FrameRequest asked = request;
-    double worstPixels = 0;
+    Drawn drawn;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         if (stop.stop_requested())
             return absl::CancelledError("stopped; nothing was written");
         asked.camera = frames[i].camera;
         ASSIGN_OR_RETURN(const coordinator::RenderedFrame frame, source->draw(asked));
-        worstPixels = std::max(worstPixels, frame.statistics.tauAchievedPixels);
+        drawn.add(frame);
         RETURN_IF_ERROR(movie->add(frame.image));
         bar.show("drawing", static_cast<double>(i + 1) / static_cast<double>(frames.size()),
                  ProgressBar::Clock::now());
@@ -90,10 +121,7 @@ absl::Status writeFlightVideo(const FlightVideo& video, const std::string& scene
     RETURN_IF_ERROR(movie->finish());
     RETURN_IF_ERROR(file.commit());
     if (!video.quiet)
-        tell(
-            fmt::format("{}: {} pictures, error at most {} of {:.3g} pixels asked, and what "
-                        "coding adds",
-                        video.out, frames.size(), boundText(worstPixels), request.tauPixels));
+        tellOf(drawn, frames.size(), video.out, request.tauPixels);
     return absl::OkStatus();
 }
 

@@ -34,7 +34,7 @@ void tell(std::string_view lines);
 /// The same of what is wrong with its input.
 void tellErrors(std::string_view lines);
 
-/// The last word of a command that failed: an entry of a JSON log, "eyrie: …" for people.
+/// The last words of a command that failed: an entry of a JSON log, "eyrie: …" for people.
 void logFailure(const std::string& message);
 
 }  // namespace eyrie::cli

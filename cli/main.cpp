@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cctype>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -92,11 +93,24 @@ std::string textOf(const absl::Status& status) {
     return {status.message().data(), status.message().size()};
 }
 
+/// "--cache-size" does not name --cache.
+bool namesOption(std::string_view text, const std::string& option) {
+    const std::string name = "--" + option;
+    for (std::size_t at = text.find(name); at != std::string_view::npos;
+         at = text.find(name, at + 1)) {
+        const std::string_view rest = text.substr(at + name.size());
+        if (rest.empty() ||
+            (rest[0] != '-' && std::isalnum(static_cast<unsigned char>(rest[0])) == 0))
+            return true;
+    }
+    return false;
+}
+
 /// Which option that the error may be about was not on the command line.
-void tellOrigins(const CompletedLine& line, const CLI::ParseError& error) {
+void tellOrigins(const CompletedLine& line, std::string_view error) {
     for (const auto& [option, origin] : line.origins)
-        if (std::string_view(error.what()).find("--" + option) != std::string_view::npos)
-            fmt::print(stderr, "eyrie: --{} comes from {}\n", option, origin);
+        if (namesOption(error, option))
+            eyrie::cli::logFailure(fmt::format("--{} comes from {}", option, origin));
 }
 
 ExitStatus runCommandLine(int argc, char** argv) {
@@ -119,7 +133,7 @@ ExitStatus runCommandLine(int argc, char** argv) {
         return ExitStatus::Done;
     } catch (const CLI::ParseError& error) {
         explain(app, error);
-        tellOrigins(*line, error);
+        tellOrigins(*line, error.what());
         return ExitStatus::WrongInput;
     }
     if (common.printsConfig) {
@@ -129,8 +143,10 @@ ExitStatus runCommandLine(int argc, char** argv) {
     eyrie::cli::startLog(
         {common.logFormat == "json", common.logLevel, eyrie::cli::pathOf(*line->command)});
     const absl::Status status = run();
-    if (!status.ok())
+    if (!status.ok()) {
         eyrie::cli::logFailure(textOf(status));
+        tellOrigins(*line, textOf(status));
+    }
     return eyrie::cli::exitStatusOf(status);
 }
 

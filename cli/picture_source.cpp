@@ -14,7 +14,6 @@
 #include "cli/local_farm.h"
 #include "cli/log.h"
 #include "coordinator/frame/budget_keeper.h"
-#include "fabric/log.h"
 #include "fabric/status.h"
 #include "renderer/renderer.h"
 
@@ -154,7 +153,7 @@ absl::StatusOr<RenderedFrame> PictureSource::drawLatest(const ChooseFrame& choos
 
 absl::StatusOr<std::unique_ptr<PictureSource>> PictureSource::open(
     const std::string& path, const PictureSourceOptions& options, const std::stop_token& stop) {
-    spdlog::set_level(options.quiet ? spdlog::level::err : spdlog::level::warn);
+    quietLog();
     ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, options.quiet));
     ASSIGN_OR_RETURN(fabric::Scene scene,
                      loadScene(std::span(&path, 1), options.drawing.cache, options.quiet, stop));

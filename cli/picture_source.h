@@ -19,7 +19,7 @@ struct PictureSourceOptions {
     int renderers = 0;
     ConfigOptions config;
     DrawingOptions drawing;
-    bool quiet = false;  ///< only errors; otherwise progress and notes of imports, and warnings
+    bool quiet = false;  ///< neither progress nor notes of imports
 };
 
 /// Says that a --compound has no effect where `renderers` processes draw at most: one shares a

@@ -312,7 +312,7 @@ void addOutputOptions(CLI::App& command, Options& options) {
         ->type_name("FILE");
     command.add_option("--stats", options.stats, "JSON to write: what was drawn, and how well")
         ->type_name("FILE");
-    command.add_flag("--quiet", options.pictures.quiet, "Only errors");
+    command.add_flag("--quiet", options.pictures.quiet, "Only warnings and errors");
     command.add_flag("--json", options.json, "Print the statistics as JSON");
 }
 

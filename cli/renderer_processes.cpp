@@ -65,7 +65,10 @@ private:
             // Only their own coordinator reaches them, and its scenes are the user's.
             "--allow-url", "any",
             // EYRIE_DATA is the coordinator's folder, and files are where that has them.
-            "--data", "", "--quiet"};
+            "--data", "",
+            // EYRIE_TOKEN_FILE and EYRIE_TLS_... are of the coordinator's doors to others.
+            "--token-file", "", "--tls-cert", "", "--tls-key", "", "--tls-ca", "", "--tls-name", "",
+            "--quiet"};
         for (std::string& argument : argumentsOf(options_.drawing))
             arguments.push_back(std::move(argument));
         for (std::string& argument : logArguments()) arguments.push_back(std::move(argument));

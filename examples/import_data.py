@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Imports a file of the server's data folder, telling how far it is, and says what came of it.
 
-    import_data.py http://127.0.0.1:8080 survey/dem.tif survey/dem.eyt
+    import_data.py http://127.0.0.1:8080 survey/dem.tif survey/dem.eyt [--replace]
 
+Without --replace a file of that name is not overwritten.
 Ctrl-C calls the import off. A server with tokens wants one of the role admin, in EYRIE_TOKEN.
 """
 import json
@@ -33,9 +34,10 @@ def ask(server, method, path, body=None, headers=None):
         raise SystemExit(f"{server} does not answer: {error.reason}") from None
 
 
-def begin(server, source, output):
+def begin(server, source, output, replace):
     # The key makes it safe to ask again where an answer got lost.
-    return ask(server, "POST", "/imports", {"sources": [source], "output": output, "replace": True},
+    return ask(server, "POST", "/imports",
+               {"sources": [source], "output": output, "replace": replace},
                {"Idempotency-Key": uuid.uuid4().hex})
 
 
@@ -51,8 +53,11 @@ def ended(server, operation):
 
 
 def main():
-    server, source, output = sys.argv[1].rstrip("/"), sys.argv[2], sys.argv[3]
-    operation = begin(server, source, output)
+    arguments = [each for each in sys.argv[1:] if each != "--replace"]
+    if len(arguments) != 3:
+        raise SystemExit(__doc__)
+    server, source, output = arguments[0].rstrip("/"), arguments[1], arguments[2]
+    operation = begin(server, source, output, "--replace" in sys.argv)
     try:
         operation = ended(server, operation)
     except KeyboardInterrupt:
@@ -69,6 +74,4 @@ def main():
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
-        raise SystemExit(__doc__)
     main()

@@ -42,7 +42,10 @@ def main():
     width, height = 320, 180
 
     # Without a camera the picture is seen from where the page starts. This one is a little nearer.
-    camera = call(server, "GET", "/status")["session"]["home"]
+    session = call(server, "GET", "/status")["session"]
+    if "home" not in session:
+        raise SystemExit(session["problem"])
+    camera = session["home"]
     camera["eye"] = [e + 0.2 * (t - e) for e, t in zip(camera["eye"], camera["target"])]
 
     picture = call(server, "POST", "/image", {

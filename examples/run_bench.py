@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Has a running Eyrie measure speed against error, tells how far it is, and prints what came of it.
 
-    run_bench.py http://127.0.0.1:8080 survey.bench FILE.html [TAU,TAU...] [--reference]
+    run_bench.py http://127.0.0.1:8080 survey.bench FILE.html [TAU,TAU...] [--reference] [--replace]
 
 The report stays in the server's data folder under the name given; its page is saved to FILE.html.
 With --reference errors are measured, too, against what the data were imported from.
+Without --replace a report of that name is not overwritten.
 Ctrl-C calls the run off. A server with tokens wants one of the role admin, in EYRIE_TOKEN.
 """
 import json
@@ -49,7 +50,7 @@ def ended(server, operation):
 
 
 def main():
-    arguments = [each for each in sys.argv[1:] if each != "--reference"]
+    arguments = [each for each in sys.argv[1:] if each not in ("--reference", "--replace")]
     if len(arguments) not in (3, 4):
         raise SystemExit(__doc__)
     server, output, file = arguments[0].rstrip("/"), arguments[1], arguments[2]
@@ -61,7 +62,8 @@ def main():
     operation = json.loads(ask(
         server, "POST", "/bench-runs",
         {"output": output, "tauPixels": taus, "width": 320, "height": 180, "frames": 12,
-         "repeats": 1, "replace": True, "withReference": "--reference" in sys.argv},
+         "repeats": 1, "replace": "--replace" in sys.argv,
+         "withReference": "--reference" in sys.argv},
         {"Idempotency-Key": uuid.uuid4().hex}))
     try:
         operation = ended(server, operation)

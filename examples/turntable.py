@@ -54,9 +54,13 @@ def main():
         count = int(sys.argv[3]) if len(sys.argv) > 3 else 8
     except ValueError:
         raise SystemExit(__doc__) from None
+    if count < 1:
+        raise SystemExit(__doc__)
     os.makedirs(folder, exist_ok=True)
-    home = json.loads(ask(server, "/status"))["session"]["home"]
-    cameras = [turned(home, 2 * math.pi * i / count) for i in range(count)]
+    session = json.loads(ask(server, "/status"))["session"]
+    if "home" not in session:
+        raise SystemExit(session["problem"])
+    cameras = [turned(session["home"], 2 * math.pi * i / count) for i in range(count)]
     with concurrent.futures.ThreadPoolExecutor(IN_FLIGHT) as pool:
         for i, jpeg in enumerate(pool.map(lambda camera: render(server, camera), cameras)):
             with open(os.path.join(folder, f"{i:04}.jpg"), "wb") as out:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/http/http_session.h"
 
-#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <sstream>
@@ -9,24 +8,23 @@
 #include <string_view>
 #include <utility>
 
-#include <boost/asio/ip/address.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/string.hpp>
 #include <boost/beast/http.hpp>
-#include <boost/beast/http/span_body.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <fmt/format.h>
-#include <netinet/tcp.h>
-#include <poll.h>
-#include <sys/socket.h>
 
 #include "coordinator/http/api_calls.h"
 #include "coordinator/http/event_stream.h"
 #include "coordinator/http/observe_routes.h"
 #include "coordinator/http/origin.h"
+#include "coordinator/http/peer.h"
 #include "coordinator/http/problem.h"
+#include "coordinator/http/reply.h"
 #include "coordinator/http/request_target.h"
 #include "coordinator/http/router.h"
 #include "coordinator/http/stream.h"
@@ -42,40 +40,18 @@ namespace beast = boost::beast;
 using beast::error_code;
 using boost::asio::ip::tcp;
 using Request = beast::http::request<beast::http::string_body>;
-/// Its body belongs to a Response.
-using Reply = beast::http::response<beast::http::span_body<const char>>;
 
 constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
 constexpr std::uint64_t kMaxBodyBytes = 1024 * 1024;
 
-/// The page runs its own scripts and styles only, talks to this server only, and may be framed by
-/// it only.
-constexpr const char* kContentSecurityPolicy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
-    "connect-src 'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; "
-    "form-action 'none'; frame-ancestors 'self'";
-
-/// The system says that it has room for more only when a third of what it holds, of up to some
-/// megabytes, has gone: over a slow link that takes longer than a reader has. So it is not given
-/// more than this that it cannot send yet.
-constexpr int kUnsentBytes = 256 * 1024;
-
-void limitUnsent(int socket) {
-    ::setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kUnsentBytes, sizeof(kUnsentBytes));
-}
-
 /// How often a client that has sent more than its request is looked at.
 constexpr std::chrono::milliseconds kLookAgain{100};
-
-/// Whether nothing more than what lies there will come.
-bool hasHungUp(int socket) {
-    pollfd asked{socket, POLLRDHUP, 0};
-    return ::poll(&asked, 1, 0) > 0;
-}
 
 /// In this header a page says where it is when it asks why it may not connect: browsers send no
 /// Origin with what a page asks of its own server, which behind a proxy they take the proxy for.
 constexpr const char* kPageOrigin = "Eyrie-Page-Origin";
+
+constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
 
 constexpr std::string_view kNoWebSocket =
     "this address is for WebSockets; open / in a browser instead, and have a proxy in between pass "
@@ -122,37 +98,17 @@ absl::Status takeHost(Request& request, bool isEncrypted) {
     return absl::OkStatus();
 }
 
+/// Whether a client waits to be asked for the body (RFC 9110, 10.1.1).
+bool waitsToGoOn(const Request& header) {
+    return header.version() >= 11 &&
+           beast::iequals(header[beast::http::field::expect], "100-continue");
+}
+
 /// What came is no HTTP, as opposed to: nothing more came.
 bool isMalformed(error_code error) {
     namespace http = beast::http;
     return error.category() == make_error_code(http::error::bad_method).category() &&
            error != http::error::end_of_stream && error != http::error::partial_message;
-}
-
-/// An IP address; of IPv6 the network, since who has one address has all of it.
-std::string addressOf(tcp::socket& socket) {
-    error_code error;
-    const boost::asio::ip::address address = socket.remote_endpoint(error).address();
-    if (error || address.is_v4())
-        return error ? "nowhere" : address.to_string();
-    boost::asio::ip::address_v6::bytes_type bytes = address.to_v6().to_bytes();
-    if (!address.to_v6().is_v4_mapped() && !address.is_loopback())
-        std::fill(bytes.begin() + 8, bytes.end(), std::uint8_t{0});
-    return boost::asio::ip::address_v6(bytes).to_string();
-}
-
-/// What every answer says, and what this one does.
-Reply headersOf(const Response& response) {
-    namespace http = beast::http;
-    Reply reply(static_cast<http::status>(response.status), 11);
-    reply.set(http::field::content_type, response.contentType);
-    reply.set(http::field::cache_control, response.cacheControl);
-    reply.set("Content-Security-Policy", kContentSecurityPolicy);
-    reply.set("X-Content-Type-Options", "nosniff");
-    reply.set("Referrer-Policy", "no-referrer");
-    reply.set("Cross-Origin-Resource-Policy", "same-origin");
-    for (const auto& [name, value] : response.headers) reply.set(name, value);
-    return reply;
 }
 
 class HttpSession : public Session, public std::enable_shared_from_this<HttpSession> {
@@ -238,10 +194,32 @@ private:
             if (const auto self = weak.lock(); self && !error)
                 self->stopReading();
         });
+        beast::http::async_read_header(
+            stream_, buffer_, *parser_,
+            [self = shared_from_this()](error_code error, std::size_t bytes) {
+                self->count(observe::Direction::In, bytes);
+                if (error || self->parser_->is_done())
+                    return self->requestRead(error);
+                if (waitsToGoOn(self->parser_->get()))
+                    return self->goOn();
+                self->readBody();
+            });
+    }
+
+    /// Whoever asks: bodies of those who do not wait for it come, too.
+    void goOn() {
+        boost::asio::async_write(stream_, boost::asio::buffer(kContinue.data(), kContinue.size()),
+                                 [self = shared_from_this()](error_code error, std::size_t bytes) {
+                                     self->count(observe::Direction::Out, bytes);
+                                     if (error)
+                                         return self->requestRead(error);
+                                     self->readBody();
+                                 });
+    }
+
+    void readBody() {
         beast::http::async_read(stream_, buffer_, *parser_,
                                 [self = shared_from_this()](error_code error, std::size_t bytes) {
-                                    self->isReading_ = false;
-                                    self->patience_.cancel();
                                     self->count(observe::Direction::In, bytes);
                                     self->requestRead(error);
                                 });
@@ -256,6 +234,8 @@ private:
 
     void requestRead(error_code error) {
         namespace http = beast::http;
+        isReading_ = false;
+        patience_.cancel();
         if (isDropped_)
             return;
         waiting_.end();

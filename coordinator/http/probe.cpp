@@ -13,6 +13,7 @@
 #include <boost/asio/write.hpp>
 #include <fmt/format.h>
 
+#include "coordinator/http/host_and_port.h"
 #include "fabric/status.h"
 
 namespace eyrie::http {
@@ -84,8 +85,8 @@ absl::Status checkStatusLine(const std::string& line, const std::string& url) {
 template <typename Stream>
 absl::Status ask(Stream& stream, Steps& steps, const Probed& probed) {
     const std::string request =
-        fmt::format("GET {} HTTP/1.1\r\nHost: {}:{}\r\nConnection: close\r\n\r\n", probed.path,
-                    probed.host, probed.port);
+        fmt::format("GET {} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n", probed.path,
+                    hostAndPort(probed.host, probed.port));
     RETURN_IF_ERROR(steps.run(
         [&](auto handler) { asio::async_write(stream, asio::buffer(request), handler); }));
     std::string line;
@@ -133,8 +134,8 @@ absl::Status askEncrypted(Steps& steps, const Probed& probed, const Trust& trust
 }  // namespace
 
 absl::Status probe(const Probed& probed, std::chrono::milliseconds limit, const Trust& trust) {
-    Steps steps(fmt::format("http{}://{}:{}{}", probed.isEncrypted ? "s" : "", probed.host,
-                            probed.port, probed.path),
+    Steps steps(fmt::format("http{}://{}{}", probed.isEncrypted ? "s" : "",
+                            hostAndPort(probed.host, probed.port), probed.path),
                 limit);
     RETURN_IF_ERROR(steps.connect(probed));
     return probed.isEncrypted ? askEncrypted(steps, probed, trust)

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "coordinator/http/context.h"
+#include "coordinator/http/host_and_port.h"
 #include "coordinator/http/http_session.h"
 #include "fabric/log.h"
 #include "fabric/status.h"
@@ -32,11 +33,6 @@ constexpr std::string_view kBusyReply =
     "HTTP/1.1 503 Service Unavailable\r\nContent-Type: text/plain\r\nRetry-After: 5\r\n"
     "Connection: close\r\nContent-Length: 42\r\n\r\n"
     "Too many connections; try again in a bit.\n";
-
-std::string hostAndPort(std::string_view host, std::uint16_t port) {
-    const bool isIpv6 = host.find(':') != std::string_view::npos;
-    return isIpv6 ? fmt::format("[{}]:{}", host, port) : fmt::format("{}:{}", host, port);
-}
 
 absl::Status cannotListen(const ServerOptions& options, const error_code& error) {
     const std::string place = hostAndPort(options.host, options.port);

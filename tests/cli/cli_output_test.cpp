@@ -21,8 +21,10 @@
 #include "cli/log.h"
 #include "cli/output_reader.h"
 #include "cli/picture_bands.h"
+#include "cli/picture_source.h"
 #include "cli/progress_bar.h"
 #include "fabric/frustum.h"
+#include "fabric/log.h"
 #include "fabric/status.h"
 #include "tests/support/temporary_folder.h"
 #include "wire/jpeg.h"
@@ -373,6 +375,21 @@ TEST(Tell, WritesEntriesBelowTheLevelOfRenderersButNotBelowWhatIsAskedFor) {
                   tell("one");
               }),
               "");
+}
+
+/// Before they find that there is nothing to draw.
+TEST(PictureSource, LeavesOfTheLogWarningsWhereNoLevelWasAskedFor) {
+    for (const auto& [asked, level] : {std::pair("", spdlog::level::warn),
+                                       {"debug", spdlog::level::debug},
+                                       {"off", spdlog::level::off}})
+        for (const bool quiet : {false, true}) {
+            startLog({false, asked, "render"});
+            PictureSourceOptions options;
+            options.quiet = quiet;
+            EXPECT_FALSE(PictureSource::open("/nowhere/a.eym", options, {}).ok());
+            EXPECT_EQ(spdlog::get_level(), level) << asked;
+        }
+    startLog();
 }
 
 TEST(Tell, WritesLinesAsTheyAreForPeople) {

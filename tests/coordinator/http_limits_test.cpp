@@ -177,6 +177,31 @@ TEST_F(HttpAccess, WhatIsTooLargeIsRefusedBeforeItIsRead) {
     EXPECT_EQ(statusOf(request("GET", "/healthz")), 200);
 }
 
+TEST_F(HttpAccess, WhoWaitsToSendABodyIsToldToGoOn) {
+    start({}, false);
+    tcp::socket socket = connect();
+    const std::string header =
+        "POST /login HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nContent-Length: 2\r\n";
+    const std::string goOn = "HTTP/1.1 100 Continue\r\n\r\n";
+    asio::write(socket, asio::buffer(header + "Expect: 100-Continue\r\n\r\n"));
+    std::string told(goOn.size(), ' ');
+    asio::read(socket, asio::buffer(told));
+    ASSERT_EQ(told, goOn);
+    asio::write(socket, asio::buffer(std::string("{}")));
+    EXPECT_THAT(answerOn(socket), testing::StartsWith("HTTP/1.1 200"));
+    EXPECT_THAT(ask(header + "\r\n{}"), testing::StartsWith("HTTP/1.1 200")) << "who does not wait";
+}
+
+TEST_F(HttpAccess, NobodyIsToldToGoOnWithWhatIsTooLongOrNotThere) {
+    start({}, false);
+    const std::string waiting = "Host: localhost\r\nConnection: close\r\nExpect: 100-continue\r\n";
+    EXPECT_EQ(statusOf("POST /login HTTP/1.1\r\nContent-Length: 2000000\r\n" + waiting + "\r\n"),
+              413);
+    EXPECT_EQ(statusOf("GET /healthz HTTP/1.1\r\n" + waiting + "\r\n"), 200);
+    EXPECT_EQ(statusOf("POST /login HTTP/1.0\r\nContent-Length: 2\r\n" + waiting + "\r\n{}"), 200)
+        << "HTTP/1.0 knows no such answer";
+}
+
 TEST(MessageRate, LetsBurstsOfASecondPassAndSlowsTheRest) {
     MessageRate rate(100);
     MessageRate::Clock::time_point now{seconds(1000)};

@@ -9,7 +9,7 @@ eyrie_test(viewer_test LABEL unit
            LINK eyrie::stream eyrie::jpeg eyrie::png eyrie::proto)
 eyrie_test(shared_session_test LABEL unit LINK eyrie::http eyrie::test_viewer)
 eyrie_test(http_server_test LABEL unit
-           SOURCES http_server_test.cpp origin_test.cpp request_target_test.cpp viewer_connection_test.cpp
+           SOURCES http_server_test.cpp origin_test.cpp probe_test.cpp request_target_test.cpp viewer_connection_test.cpp
            LINK eyrie::http eyrie::jpeg eyrie::proto Boost::headers Threads::Threads)
 eyrie_test(http_access_test LABEL unit SOURCES http_access_test.cpp http_limits_test.cpp https_test.cpp
            LINK eyrie::http eyrie::jpeg eyrie::test_certificates Boost::headers OpenSSL::SSL Threads::Threads)

@@ -205,6 +205,10 @@ TEST_F(ApiExamples, ABenchRunLeavesAReport) {
     EXPECT_EQ(outcome.exit.status, 0) << outcome.output << outcome.errors;
     EXPECT_THAT(outcome.output, testing::ContainsRegex("4 px: .* pixels, measured [0-9]"));
     EXPECT_GT(std::filesystem::file_size(page), 10'000U);
+    const test::Outcome again =
+        ask("python3", "examples/run_bench.py", {"measured.bench", page, "4"});
+    EXPECT_NE(again.exit.status, 0);
+    EXPECT_THAT(again.errors, HasSubstr("output 'measured.bench' is there already"));
     const std::set<std::string> names = test::namesIn(folder_->path("data/measured.bench"));
     for (const char* name :
          {"summary.json", "frames.csv", "errors.csv", "index.html", "scene.json"})
@@ -239,6 +243,13 @@ TEST_F(ApiExamples, AFileIsImportedAndCanBeShown) {
     EXPECT_EQ(outcome.exit.status, 0) << outcome.output << outcome.errors;
     EXPECT_THAT(outcome.output, HasSubstr("imported.eyt: "));
     EXPECT_EQ(test::eyrie({"info", folder_->path("data/imported.eyt"), "--quiet"}).exit.status, 0);
+    const test::Outcome again =
+        ask("python3", "examples/import_data.py", {"example.tif", "imported.eyt"});
+    EXPECT_NE(again.exit.status, 0);
+    EXPECT_THAT(again.errors, HasSubstr("output 'imported.eyt' is there already"));
+    const test::Outcome replaced =
+        ask("python3", "examples/import_data.py", {"example.tif", "imported.eyt", "--replace"});
+    EXPECT_EQ(replaced.exit.status, 0) << replaced.output << replaced.errors;
     const test::Outcome wrong =
         ask("python3", "examples/import_data.py", {"example.tif", "example.tif"});
     EXPECT_NE(wrong.exit.status, 0);
@@ -370,11 +381,33 @@ TEST(Examples, SayInALineThatTheServerDoesNotAnswer) {
     }
 }
 
+TEST(Examples, SayWhyThereIsNothingToDraw) {
+    const test::TemporaryFolder folder;
+    test::Process server(test::eyrieCommand({"serve", "--data", folder.path().string(), "--listen",
+                                             "127.0.0.1:0", "--renderers", "1"}));
+    ASSERT_TRUE(server.waitForOutput("Eyrie is at http://", seconds(120)) &&
+                server.waitForOutput("/\n", seconds(5)))
+        << server.errors();
+    std::string url = server.output();
+    url = url.substr(url.find("http://"));
+    url = url.substr(0, url.find("/\n"));
+    for (const char* example : {"render_still.py", "turntable.py"}) {
+        const test::Outcome outcome = test::run(
+            {"/usr/bin/env", "python3", EYRIE_SOURCE_DIR "/examples/" + std::string(example), url,
+             folder.path("out")},
+            seconds(60));
+        EXPECT_EQ(outcome.exit.status, 1) << example;
+        EXPECT_THAT(outcome.errors, testing::Not(HasSubstr("Traceback"))) << example;
+        EXPECT_GT(outcome.errors.size(), 10U) << example;
+    }
+}
+
 TEST(Examples, SayHowTheyAreCalledWhereANumberIsNone) {
     const test::TemporaryFolder folder;
     const std::string place = folder.path("out");
     for (const std::vector<std::string>& example :
          std::vector<std::vector<std::string>>{{"turntable.py", place, "many"},
+                                               {"turntable.py", place, "-3"},
                                                {"watch_statistics.py", "many"},
                                                {"sessions.py", "tour", "0,0,up", "0,0,0"},
                                                {"sessions.py", "tour", "shut"},

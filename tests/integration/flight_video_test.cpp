@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `eyrie render --flight`: a video of what the program draws.
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -67,6 +68,45 @@ TEST_F(FlightVideo, ShowsWhatIsDrawnAlongIt) {
     ASSERT_TRUE(last.ok()) << last.status();
     EXPECT_GT(video::psnr(*frames.back(), *last), 32);
     EXPECT_LT(video::psnr(*frames.front(), *last), 25) << "which is another view";
+}
+
+/// By how much a picture's pixels differ in green.
+double contrast(const AVFrame& frame) {
+    double least = 255;
+    double most = 0;
+    for (int y = 0; y < frame.height; ++y)
+        for (int x = 0; x < frame.width; ++x) {
+            const double green = video::colourAt(frame, x, y)[1];
+            least = std::min(least, green);
+            most = std::max(most, green);
+        }
+    return most - least;
+}
+
+/// Where it looks without, nothing of it is left to be seen.
+TEST_F(FlightVideo, OfRaisedTerrainGoesAroundItAsItIsDrawn) {
+    ASSERT_TRUE(succeeded(
+        {"synth", "terrain", "--size", "129", "--seed", "1", "-o", path("dem.tif"), "--quiet"}));
+    ASSERT_TRUE(
+        succeeded({"import", "terrain", path("dem.tif"), "-o", path("dem.eyt"), "--quiet"}));
+    ASSERT_TRUE(succeeded({"render", path("dem.eyt"), "--flight", "orbit", "--fps", "1", "--size",
+                           "160x90", "--exaggeration", "4", "-o", path("raised.mp4"), "--quiet"}));
+    const std::vector<video::Frame> frames = video::framesOfFile(path("raised.mp4"));
+    ASSERT_EQ(frames.size(), 13u);
+    for (const video::Frame& frame : frames) EXPECT_GT(contrast(*frame), 40);
+}
+
+TEST_F(FlightVideo, SaysWhichPicturesAreEmptyAndWhy) {
+    folder_->write("off.eqc", R"(config {
+        appNode { pipe { window { viewport [ 0 0 64 64 ] channel { name "a" } } } }
+        layout { name "x" view {} } canvas { layout "x" segment { channel "a" } } })");
+    const test::Outcome outcome =
+        eyrie({"render", path("ball.eym"), "--flight", path("flight.json"), "--fps", "4", "--size",
+               "64x64", "--config", path("off.eqc"), "--layout", "OFF", "-o", path("off.mp4")});
+    EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("off.mp4: 3 of 3 pictures are empty. Nothing is seen here"),
+              std::string::npos)
+        << outcome.errors;
 }
 
 TEST_F(FlightVideo, LeavesNothingBehindWhenStopped) {

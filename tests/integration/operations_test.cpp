@@ -53,6 +53,18 @@ TEST(Options, SayWhereAWrongValueComesFrom) {
     EXPECT_THAT(outcome.errors, HasSubstr("--renderers comes from EYRIE_RENDERERS"));
 }
 
+TEST(Options, SayWhereAValueComesFromThatTheCommandRefuses) {
+    const auto outcome = test::eyrie({"render", "scene.json", "-o", "a.png"},
+                                     {"EYRIE_TAU=0", "EYRIE_CACHE=/environment"});
+    EXPECT_EQ(outcome.exit, (test::Exit{2, 0}));
+    EXPECT_THAT(outcome.errors, HasSubstr("--tau comes from EYRIE_TAU"));
+    EXPECT_THAT(outcome.errors, testing::Not(HasSubstr("EYRIE_CACHE")));
+    const auto other = test::eyrie({"render", "scene.json", "-o", "a.png", "--cache-size", "much"},
+                                   {"EYRIE_CACHE=/environment"});
+    EXPECT_THAT(other.errors,
+                testing::AllOf(HasSubstr("--cache-size"), testing::Not(HasSubstr("EYRIE_CACHE"))));
+}
+
 TEST(Options, UnknownOnesInAFileAreRefusedWithWhatComesNear) {
     const test::TemporaryFolder folder;
     std::ofstream(folder.path("eyrie.toml")) << "[serve]\nrenderer = 3\n";

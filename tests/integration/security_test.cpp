@@ -119,6 +119,24 @@ TEST_F(Doors, OpenToRenderersAndPagesThatHaveATokenAndToNobodyElse) {
     }
 }
 
+/// They reach their coordinator over a socket that only its user does.
+TEST_F(Doors, AreNotThoseOfRenderersThatACommandStarts) {
+    const test::Authority authority("the authority");
+    const access::TlsFiles files = authority.issue("doors");
+    for (const std::vector<std::string>& variables :
+         {std::vector<std::string>{"EYRIE_TOKEN_FILE=" +
+                                   tokenFile("view", fmt::format("view {}\n", kSecret))},
+          {"EYRIE_TLS_CERT=" + files.certificate, "EYRIE_TLS_KEY=" + files.key,
+           "EYRIE_TLS_CA=" + files.authority, "EYRIE_TLS_NAME=elsewhere.example"}}) {
+        std::vector<std::string> all = environment();
+        all.insert(all.end(), variables.begin(), variables.end());
+        const test::Outcome outcome = test::eyrie(
+            {"render", kScene, "--size", "64x48", "--renderers", "1", "-o", folder_.path("a.png")},
+            all);
+        EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << variables[0] << "\n" << outcome.errors;
+    }
+}
+
 TEST_F(Doors, OfPublishedPortsAnswerToNoStrangersName) {
     for (const std::vector<std::string>& program :
          {std::vector<std::string>{"serve"}, {"coordinator", "--grpc", "127.0.0.1:0"}}) {
