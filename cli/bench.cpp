@@ -64,16 +64,14 @@ absl::Status checkTaus(const std::vector<double>& taus, const std::vector<double
     return absl::OkStatus();
 }
 
-bench::BenchFacts factsOf(const Options& options, const PictureSize& size) {
+bench::BenchFacts factsOf(const Options& options, const bench::RunPlan& plan,
+                          const std::vector<bench::BenchRun>& runs) {
     const auto nameOf = [](const std::filesystem::path& path) { return path.filename().string(); };
-    return {nameOf(options.scene),
-            nameOf(options.flight),
-            size.width,
-            size.height,
-            options.frames,
-            options.repeats,
-            bench::commandLine(),
-            cli::nameOf(options.occlusion)};
+    return {nameOf(options.scene),   nameOf(options.flight),
+            plan.play.request.width, plan.play.request.height,
+            options.frames,          options.repeats,
+            bench::commandLine(),    cli::nameOf(options.occlusion),
+            plan.flight.hash(),      runs.front().sceneHash};
 }
 
 /// In their order, each once.
@@ -109,12 +107,19 @@ bench::RunPlan planOf(const Options& options, bench::NamedFlight flight, const P
             play,          options.pictures,  options.progressJson};
 }
 
+absl::StatusOr<bench::WrittenReport> readCompared(const std::string& path) {
+    auto report = bench::readReport(path);
+    if (!report.ok())
+        return fabric::withContext(report.status(), "--compare");
+    return report;
+}
+
 absl::Status runCompare(const Options& options) {
     if (!options.given.empty() && !options.pictures.quiet)
         tell(fmt::format("without effect, since --compare measures nothing: {}",
                          fmt::join(options.given, ", ")));
-    ASSIGN_OR_RETURN(auto a, bench::readReport(options.compared[0]));
-    ASSIGN_OR_RETURN(auto b, bench::readReport(options.compared[1]));
+    ASSIGN_OR_RETURN(auto a, readCompared(options.compared[0]));
+    ASSIGN_OR_RETURN(auto b, readCompared(options.compared[1]));
     ASSIGN_OR_RETURN(const bench::Comparison comparison,
                      bench::compare(std::move(a), std::move(b), options.force));
     if (!options.out.empty())
@@ -167,7 +172,7 @@ absl::Status runBench(const Options& options) {
     const StopSignal stop;
     RETURN_IF_ERROR(checkTaus(options.taus, options.budgets));
     RETURN_IF_ERROR(checkReference(options));
-    RETURN_IF_ERROR(bench::checkReportFolder(options.out));
+    RETURN_IF_ERROR(fabric::withContext(bench::checkReportFolder(options.out), "-o"));
     ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
     ASSIGN_OR_RETURN(bench::NamedFlight flight, bench::NamedFlight::read(options.flight));
     bench::RunPlan plan = planOf(options, std::move(flight), size);
@@ -184,7 +189,8 @@ absl::Status runBench(const Options& options) {
     if (reference) {
         ASSIGN_OR_RETURN(uniform, bench::measureRuns(*reference, plan, runs, stop.token()));
     }
-    const bench::Report report{factsOf(options, size), std::move(runs), std::move(uniform)};
+    const bench::BenchFacts facts = factsOf(options, plan, runs);
+    const bench::Report report{facts, std::move(runs), std::move(uniform)};
     RETURN_IF_ERROR(bench::writeReport(report, options.out));
     if (options.json)
         fmt::print("{}", bench::summaryJson(report));

@@ -209,6 +209,11 @@ void noteRunsOfOneOnly(const WrittenReport& own, const WrittenReport& other,
             notes.push_back(fmt::format("only {} has {}", own.name, nameOf(run)));
 }
 
+/// Of hashes, where both reports tell them.
+bool areOther(const std::string& a, const std::string& b) {
+    return !a.empty() && !b.empty() && a != b;
+}
+
 /// What was measured differently, in words; empty where nothing was.
 std::string differenceOf(const WrittenReport& a, const WrittenReport& b) {
     const auto said = [](const WrittenReport& report) {
@@ -218,7 +223,12 @@ std::string differenceOf(const WrittenReport& a, const WrittenReport& b) {
     const auto key = [](const WrittenReport& report) {
         return std::tuple(report.scene, report.flight, report.width, report.height, report.frames);
     };
-    return key(a) == key(b) ? "" : said(a) + "; " + said(b);
+    if (key(a) != key(b))
+        return said(a) + "; " + said(b);
+    return areOther(a.flightHash, b.flightHash)
+               ? fmt::format("{} and {} are of other flights that are both named {}", a.name,
+                             b.name, a.flight)
+               : "";
 }
 
 }  // namespace
@@ -244,6 +254,10 @@ absl::StatusOr<Comparison> compare(WrittenReport a, WrittenReport b, bool force)
                                               "; only the same can be compared, or say --force");
         comparison.notes.push_back(difference);
     }
+    if (areOther(a.sceneHash, b.sceneHash) && a.scene == b.scene)
+        comparison.notes.push_back(
+            fmt::format("{} and {} drew other data of the name {}, or placed otherwise", a.name,
+                        b.name, a.scene));
     if (a.processor != b.processor || a.device != b.device)
         comparison.notes.push_back(fmt::format("machines differ: {}, {}; {}, {}", a.processor,
                                                a.device, b.processor, b.device));

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -148,12 +149,21 @@ std::string comparisonPage(const Comparison& comparison) {
 }
 
 absl::Status writeComparison(const Comparison& comparison, const std::string& folder) {
-    if (std::filesystem::exists(folder + "/summary.json"))
+    const auto has = [&](const char* name) {
+        std::error_code error;
+        return std::filesystem::exists(folder + "/" + name, error);
+    };
+    if (has("summary.json"))
         return absl::InvalidArgumentError(
             fmt::format("-o {}: holds a report, whose page the comparison would replace; name "
                         "another folder",
                         folder));
-    RETURN_IF_ERROR(makeFolder(folder));
+    if (has("index.html") && !has("comparison.json"))
+        return absl::InvalidArgumentError(
+            fmt::format("-o {}: its index.html is of no comparison, which would replace it; move "
+                        "it away, or name another folder",
+                        folder));
+    RETURN_IF_ERROR(fabric::withContext(makeFolder(folder), "-o"));
     RETURN_IF_ERROR(writeText(comparisonPage(comparison), folder + "/index.html"));
     return writeText(comparisonJson(comparison), folder + "/comparison.json");
 }

@@ -23,7 +23,7 @@ std::string comparisonJson(const Comparison& comparison);
 std::string comparisonPage(const Comparison& comparison);
 
 /// comparison.json and index.html, in a folder that is made where there is none. Errors:
-/// InvalidArgument (a report is there), those of fabric::writeError.
+/// InvalidArgument (a report is there, or another page), those of fabric::writeError.
 absl::Status writeComparison(const Comparison& comparison, const std::string& folder);
 
 }  // namespace eyrie::cli::bench

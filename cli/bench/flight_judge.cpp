@@ -105,7 +105,7 @@ std::vector<fabric::Camera> FlightJudge::cameras() const {
 
 absl::StatusOr<FlightJudge::Expected> FlightJudge::expect(PictureSource& finest,
                                                           coordinator::FrameRequest request) const {
-    request.tauPixels = std::min(kFinestTauPixels, request.tauPixels);
+    request.tauPixels = how_.finestTauPixels;
     ASSIGN_OR_RETURN(coordinator::RenderedFrame drawn, finest.draw(request));
     return Expected{truth::castView(truth::Pinhole(request.camera, request.width, request.height),
                                     *reference_.surface),

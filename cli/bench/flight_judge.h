@@ -20,12 +20,18 @@
 
 namespace eyrie::cli::bench {
 
+/// At which colours are drawn that pictures' are compared with, where none of these is finer.
+inline constexpr double kFinestTauPixels = 0.125;
+
 struct JudgedFrames {
     int width = 1280;  ///< of the pictures, pixels
     int height = 720;
     int played = 120;  ///< frames of one pass along the flight
     int judged = 6;    ///< of these, one of each equal part; all where there are fewer
     int keptRuns = 0;  ///< runs whose pictures are kept until they are judged
+    /// At which colours are drawn that pictures' are compared with: finer, or as fine, as all of
+    /// them, so that what is said of one depends on no other.
+    double finestTauPixels = kFinestTauPixels;
 };
 
 /// Which of a pass's frames are judged, ascending: of each part another place.
@@ -35,10 +41,6 @@ std::vector<int> judgedFrames(const JudgedFrames& frames);
 /// another 130, FLIP's planes for the most part; of each picture that a run keeps for it 8 bytes a
 /// pixel.
 std::uint64_t neededBytes(const JudgedFrames& frames);
-
-/// At which colours are drawn that pictures' are compared with: finer, or as fine, as what is
-/// compared.
-inline constexpr double kFinestTauPixels = 0.125;
 
 /// Holds frames of one flight against the full-resolution source, at any tau. What the source shows
 /// is cast once a frame and kept, but of pictures that are smaller than asked for.

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <xxhash.h>
 
 #include "cli/text_file.h"
 #include "fabric/status.h"
@@ -96,6 +97,8 @@ absl::StatusOr<NamedFlight> NamedFlight::read(std::string name) {
     ASSIGN_OR_RETURN(std::string text, readText(name));
     return NamedFlight(std::move(name), std::move(text));
 }
+
+std::uint64_t NamedFlight::hash() const { return XXH64(text_.data(), text_.size(), 0); }
 
 absl::StatusOr<fabric::CameraPath> NamedFlight::over(const fabric::Box& bounds) const {
     if (const auto made = builtIn(name_))

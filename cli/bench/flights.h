@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,8 @@ public:
     static absl::StatusOr<NamedFlight> read(std::string name);
 
     const std::string& name() const { return name_; }
+    /// Tells what is played by one name from another: xxh64 of a file's text, of none otherwise.
+    std::uint64_t hash() const;
 
     /// Over data within `bounds`. Only older programs' paths have a note; their cameras get the
     /// field of view that fabric::Camera has. Errors, with the file's name: those of

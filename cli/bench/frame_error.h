@@ -22,7 +22,7 @@ struct FrameError {
     std::size_t falseHits = 0;    ///< drawn where the source is not hit (edges excepted)
     std::size_t misplaced = 0;    ///< another surface shown than the front one (edges excepted)
     double silhouettePixels = 0;  ///< largest distance of a drawn outline from the source's
-    /// Colour, against a picture of the same view drawn at kFinestTauPixels (flight_judge.h).
+    /// Colour, against a picture of the same view drawn at JudgedFrames::finestTauPixels.
     double psnrDb = 0;
     double ssim = 1;
     double flip = 0;            ///< mean of FLIP (Andersson et al. 2020), 0 to 1

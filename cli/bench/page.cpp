@@ -45,7 +45,8 @@ absl::Status makeFolder(const std::string& folder) {
 absl::Status checkFolder(const std::string& folder, std::span<const std::string_view> names) {
     namespace fs = std::filesystem;
     std::error_code error;
-    fs::path nearest = fs::absolute(folder, error);
+    const fs::path whole = fs::absolute(folder, error);
+    fs::path nearest = whole;
     while (!fs::exists(nearest, error) && nearest != nearest.parent_path())
         nearest = nearest.parent_path();
     if (!fs::is_directory(nearest, error))
@@ -54,11 +55,13 @@ absl::Status checkFolder(const std::string& folder, std::span<const std::string_
                         nearest.string()));
     if (::access(nearest.c_str(), W_OK | X_OK) != 0)
         return fabric::writeError(folder, "cannot write into the folder", errno);
-    if (!fs::is_directory(folder, error))
-        return absl::OkStatus();
+    absl::Status status = makeFolder(folder);
     for (const std::string_view name : names)
-        RETURN_IF_ERROR(mesh::OutputFile::check((fs::path(folder) / name).string()));
-    return absl::OkStatus();
+        if (status.ok())
+            status = mesh::OutputFile::check((fs::path(folder) / name).string());
+    for (fs::path made = whole; made != nearest; made = made.parent_path())
+        ::rmdir(made.c_str());  // no file, nor a link
+    return status;
 }
 
 std::string base64(std::string_view bytes) {

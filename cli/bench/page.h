@@ -16,9 +16,9 @@ std::string withData(std::string_view page, std::string json);
 /// Where it goes. Errors: those of fabric::writeError.
 absl::Status makeFolder(const std::string& folder);
 
-/// Whether makeFolder(folder) and the writing of `names` in it would do, before the work; makes
-/// nothing. Errors: those of fabric::writeError and mesh::OutputFile::check; InvalidArgument (there
-/// is something else of that name).
+/// Whether makeFolder(folder) and the writing of `names` in it would do, before the work; what it
+/// makes for that is gone again. Errors: those of fabric::writeError and mesh::OutputFile::check;
+/// InvalidArgument (there is something else of that name).
 absl::Status checkFolder(const std::string& folder, std::span<const std::string_view> names);
 
 /// RFC 4648, section 4.

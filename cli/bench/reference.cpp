@@ -32,13 +32,19 @@ JudgedFrames judgedOf(const RunPlan& plan, int frames) {
     const coordinator::FrameRequest& request = plan.play.request;
     const auto held = std::ranges::count_if(
         plan.asked, [](const Asked& asked) { return asked.budgetMilliseconds > 0; });
-    return {request.width, request.height, plan.play.frames, frames,
-            static_cast<int>(held) * static_cast<int>(plan.renderers.size())};
+    double finest = kFinestTauPixels;
+    for (const Asked& asked : plan.asked) finest = std::min(finest, asked.tauPixels);
+    return {request.width,
+            request.height,
+            plan.play.frames,
+            frames,
+            static_cast<int>(held) * static_cast<int>(plan.renderers.size()),
+            finest};
 }
 
-absl::StatusOr<ReferenceMemory> memoryOf(const RunPlan& plan, const ReferenceOptions& options) {
+absl::StatusOr<ReferenceMemory> memoryOf(const JudgedFrames& frames,
+                                         const ReferenceOptions& options) {
     ASSIGN_OR_RETURN(const std::uint64_t limit, limitOf(options));
-    const JudgedFrames frames = judgedOf(plan, options.frames);
     return ReferenceMemory{
         limit, neededBytes(frames),
         fmt::format("{} frames of {} x {} pixels", std::min(frames.judged, frames.played),
@@ -57,8 +63,7 @@ absl::StatusOr<FlightJudge> judgeFor(const ReferencePlan& reference, const RunPl
     ASSIGN_OR_RETURN(const auto pictures, open(plan, 0, stop));
     ASSIGN_OR_RETURN(const fabric::CameraPath path, plan.flight.over(pictures->sceneInfo().bounds));
     ASSIGN_OR_RETURN(ReferenceScene scene, readSources(reference.scene, reference.sources));
-    return FlightJudge(std::move(scene), path.flight, judgedOf(plan, reference.frames),
-                       reference.remote);
+    return FlightJudge(std::move(scene), path.flight, reference.frames, reference.remote);
 }
 
 /// What colours are compared with is drawn with the memory that renderers have by themselves, or
@@ -164,9 +169,9 @@ void addReferenceOptions(CLI::App& command, ReferenceOptions& options) {
 absl::StatusOr<ReferencePlan> planReference(const RunPlan& plan, const ReferenceOptions& options,
                                             const std::stop_token& stop) {
     ReferencePlan reference;
-    reference.frames = options.frames;
-    reference.judged = judgedFrames(judgedOf(plan, options.frames));
-    ASSIGN_OR_RETURN(const ReferenceMemory memory, memoryOf(plan, options));
+    reference.frames = judgedOf(plan, options.frames);
+    reference.judged = judgedFrames(reference.frames);
+    ASSIGN_OR_RETURN(const ReferenceMemory memory, memoryOf(reference.frames, options));
     ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(plan.pictures.drawing.cache));
     reference.remote = page::sourceOptions(remote.cacheFolder, remote.cacheBytes);
     ASSIGN_OR_RETURN(reference.scene,
@@ -181,8 +186,7 @@ absl::StatusOr<std::vector<UniformLevel>> measureRuns(const ReferencePlan& refer
                                                       const RunPlan& plan,
                                                       std::vector<BenchRun>& runs,
                                                       const std::stop_token& stop) {
-    ProgressBar bar("reference", reference.frames, "frames",
-                    ProgressBar::styleFor(plan.pictures.quiet));
+    ProgressBar bar("reference", reference.frames.judged, "frames", progressStyle(plan));
     const import::Progress progress = bar.callback();
     ASSIGN_OR_RETURN(FlightJudge judge, judgeFor(reference, plan, stop));
     for (BenchRun& run : runs) {

@@ -31,7 +31,7 @@ struct ReferencePlan {
     fabric::Scene scene;
     std::vector<FoundSource> sources;
     page::SourceOptions remote;
-    int frames = 0;           ///< to judge of each run
+    JudgedFrames frames;      ///< of each run
     std::vector<int> judged;  ///< these: RunPlan::keeps
 };
 

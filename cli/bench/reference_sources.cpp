@@ -21,31 +21,40 @@ namespace fs = std::filesystem;
 
 using Files = std::vector<std::string>;
 
-absl::StatusOr<std::uint64_t> keptHash(const fabric::SceneObject& object,
-                                       const page::SourceOptions& remote) {
+/// What an import says of its source.
+struct Kept {
+    std::uint64_t hash = 0;
+    bool areTurned = false;  ///< some of its triangles
+};
+
+absl::StatusOr<Kept> keptOf(const fabric::SceneObject& object, const page::SourceOptions& remote) {
     if (object.kind == fabric::ObjectKind::Mesh) {
         ASSIGN_OR_RETURN(const mesh::EymFile file, mesh::EymFile::open(object.path, remote));
-        return file.sourceHash();
+        return Kept{file.sourceHash(), file.turnedTriangles() > 0};
     }
     ASSIGN_OR_RETURN(const auto file, terrain::EytFile::open(object.path, remote));
-    return file->index().sourceHash;
+    return Kept{file->index().sourceHash};
 }
 
 bool areThere(const Files& files) {
     return !files.empty() && std::ranges::all_of(files, import::isThere);
 }
 
-/// Those of `given` that are named like the recorded ones, in their order; none unless all are.
-Files namedLike(const Files& recorded, const Files& given) {
+/// Takes those of `given` that are named like the recorded ones, in their order; none unless all
+/// are.
+Files takeNamedLike(const Files& recorded, Files& given) {
     Files files;
+    Files left = given;
     for (const std::string& one : recorded) {
-        const auto same = std::ranges::find_if(given, [&](const std::string& path) {
+        const auto same = std::ranges::find_if(left, [&](const std::string& path) {
             return fs::path(path).filename() == fs::path(one).filename();
         });
-        if (same == given.end())
+        if (same == left.end())
             return {};
-        files.push_back(*same);
+        files.push_back(std::move(*same));
+        left.erase(same);
     }
+    given = std::move(left);
     return files;
 }
 
@@ -78,12 +87,22 @@ absl::Status checkGiven(const fabric::Scene& scene, const Files& given) {
     return absl::OkStatus();
 }
 
-/// Where to look, in this order.
+/// Where to look, in this order. What is given may be several imports' of one name, or, where none
+/// says how they are named, that of one of them or all of one's: their hash tells.
 std::vector<Files> places(const std::string& imported, const std::optional<Files>& recorded,
-                          const Files& given) {
-    if (!recorded)
-        return {given};
-    return {namedLike(*recorded, given), *recorded, beside(imported, *recorded)};
+                          Files given) {
+    std::vector<Files> candidates;
+    if (recorded) {
+        for (Files like; !(like = takeNamedLike(*recorded, given)).empty();)
+            candidates.push_back(std::move(like));
+        candidates.push_back(*recorded);
+        candidates.push_back(beside(imported, *recorded));
+        return candidates;
+    }
+    candidates.push_back(given);
+    if (given.size() > 1)
+        for (const std::string& one : given) candidates.push_back({one});
+    return candidates;
 }
 
 absl::Status isNowhere(const std::string& imported, const std::optional<Files>& recorded) {
@@ -98,12 +117,15 @@ absl::Status isNowhere(const std::string& imported, const std::optional<Files>& 
                     imported, fmt::join(*recorded, ", ")));
 }
 
+/// `others` are not it either.
 absl::Status isAnother(const Files& files, const std::string& imported, std::uint64_t hash,
-                       std::uint64_t kept) {
+                       std::uint64_t kept, const std::vector<Files>& others = {}) {
+    std::string nor;
+    for (const Files& other : others) nor += fmt::format(", nor is {}", fmt::join(other, ", "));
     return absl::InvalidArgumentError(
         fmt::format("{}: is not what {} was imported from: its hash is {:016x}, that of the "
-                    "import's source {:016x}; import it again, or name what it was with --source",
-                    fmt::join(files, ", "), imported, hash, kept));
+                    "import's source {:016x}{}; import it again, or name what it was with --source",
+                    fmt::join(files, ", "), imported, hash, kept, nor));
 }
 
 struct Candidate {
@@ -113,20 +135,31 @@ struct Candidate {
 
 absl::StatusOr<Candidate> findSource(const fabric::SceneObject& object, const Files& given,
                                      const page::SourceOptions& remote) {
-    ASSIGN_OR_RETURN(const std::uint64_t kept, keptHash(object, remote));
+    ASSIGN_OR_RETURN(const Kept kept, keptOf(object, remote));
     const std::optional<Files> recorded = recordedSources(object.path);
-    absl::Status refused = isNowhere(object.path, recorded);
+    absl::Status unread;
+    std::optional<std::uint64_t> firstHash;
+    std::vector<Files> others;
     for (const Files& files : places(object.path, recorded, given)) {
         if (!areThere(files))
             continue;
-        ASSIGN_OR_RETURN(const truth::SourceFacts facts, truth::inspectSource(object.kind, files));
-        if (facts.hash == kept)
-            return Candidate{{object.path, object.kind, object.singleSided, files, kept},
-                             facts.neededBytes};
-        if (absl::IsNotFound(refused))
-            refused = isAnother(files, object.path, facts.hash, kept);
+        const auto facts = truth::inspectSource(object.kind, files);
+        if (!facts.ok()) {
+            unread.Update(facts.status());
+            continue;
+        }
+        if (facts->hash == kept.hash)
+            return Candidate{
+                {object.path, object.kind, {object.singleSided, kept.areTurned}, files, kept.hash},
+                facts->neededBytes};
+        if (!firstHash)
+            firstHash = facts->hash;
+        others.push_back(files);
     }
-    return refused;
+    if (!others.empty())
+        return isAnother(others.front(), object.path, *firstHash, kept.hash,
+                         {others.begin() + 1, others.end()});
+    return unread.ok() ? isNowhere(object.path, recorded) : unread;
 }
 
 }  // namespace
@@ -158,8 +191,7 @@ absl::StatusOr<ReferenceScene> readSources(const fabric::Scene& scene,
                                            const std::vector<FoundSource>& found) {
     std::vector<truth::SourceSurface> sources;
     for (const FoundSource& one : found) {
-        ASSIGN_OR_RETURN(sources.emplace_back(),
-                         truth::readSource(one.kind, one.files, one.isOneSided));
+        ASSIGN_OR_RETURN(sources.emplace_back(), truth::readSource(one.kind, one.files, one.sides));
         // A flight may have taken an hour since it was found.
         if (sources.back().hash != one.hash)
             return isAnother(one.files, one.imported, sources.back().hash, one.hash);

@@ -20,12 +20,12 @@ namespace eyrie::cli::bench {
 struct FoundSource {
     std::string imported;  ///< the .eyt or .eym
     fabric::ObjectKind kind = fabric::ObjectKind::Mesh;
-    bool isOneSided = false;  ///< as its object is drawn
+    truth::MeshSides sides;  ///< as its object is drawn
     std::vector<std::string> files;
     std::uint64_t hash = 0;  ///< theirs, as the import keeps it
 
     bool isOf(const fabric::SceneObject& object) const {
-        return imported == object.path && isOneSided == object.singleSided;
+        return imported == object.path && sides.isOneSided == object.singleSided;
     }
 };
 
@@ -37,10 +37,11 @@ struct ReferenceMemory {
 };
 
 /// Finds the source files of each of the scene's imports: those of `given` (of the names that the
-/// import's record has, or all of them where it has none), or where the record says, or beside the
-/// import. Their hash must be the one that the import keeps, and all of them together must not need
-/// more than `memory` leaves. Nothing is read but for the hashes. One for each file, whichever
-/// objects show it, or two where some show one side of it and some both.
+/// import's record has, in their order where names repeat; or all of them or one where it has
+/// none), or where the record says, or beside the import. Their hash must be the one that the
+/// import keeps, and all of them together must not need more than `memory` leaves. Nothing is read
+/// but for the hashes. One for each file, whichever objects show it, or two where some show one
+/// side of it and some both.
 ///
 /// Errors: NotFound (no file, nor a record), InvalidArgument (another hash), ResourceExhausted.
 absl::StatusOr<std::vector<FoundSource>> findSources(const fabric::Scene& scene,

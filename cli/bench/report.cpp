@@ -5,8 +5,10 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,12 +16,15 @@
 #include "cli/bench/page.h"
 #include "cli/bench/report_page.h"
 #include "cli/bench/run_summary.h"
+#include "cli/bench/summary_file.h"
 #include "cli/bench/summary_json.h"
-#include "cli/image_files.h"
 #include "fabric/status.h"
+#include "renderer/mesh/output_file.h"
 
 namespace eyrie::cli::bench {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// [[run, pass, seconds, milliseconds, beyond tau], ...]
 std::string frameTimes(const std::vector<BenchRun>& runs) {
@@ -185,20 +190,41 @@ std::string table(const std::vector<BenchRun>& runs) {
 absl::Status checkReportFolder(const std::string& folder) {
     static constexpr std::array<std::string_view, 4> kFiles = {"frames.csv", "errors.csv",
                                                                "index.html", "summary.json"};
-    return checkFolder(folder, kFiles);
+    RETURN_IF_ERROR(checkFolder(folder, kFiles));
+    if (isSummary(folder + "/summary.json"))
+        return absl::OkStatus();
+    std::error_code error;
+    for (const std::string_view name : kFiles)
+        if (const fs::path file = fs::path(folder) / name; fs::exists(file, error))
+            return absl::InvalidArgumentError(fmt::format(
+                "{}: is of no report of eyrie bench, which would replace it; move it away, or name "
+                "another folder",
+                file.string()));
+    return absl::OkStatus();
 }
 
 absl::Status writeReport(const Report& report, const std::string& folder) {
     RETURN_IF_ERROR(makeFolder(folder));
-    RETURN_IF_ERROR(writeText(framesCsv(report.runs), folder + "/frames.csv"));
-    if (const std::string errors = errorsCsv(report.runs); !errors.empty()) {
-        RETURN_IF_ERROR(writeText(errors, folder + "/errors.csv"));
-    } else {  // those of an earlier report are not of this one
-        std::error_code error;
-        std::filesystem::remove(folder + "/errors.csv", error);
-    }
-    RETURN_IF_ERROR(writeText(reportPage(report), folder + "/index.html"));
-    return writeText(summaryJson(report), folder + "/summary.json");
+    std::vector<mesh::OutputFile> files;
+    const auto write = [&](const std::string& text, const char* name) -> absl::Status {
+        ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(folder + "/" + name));
+        RETURN_IF_ERROR(file.write(std::as_bytes(std::span(text))));
+        files.push_back(std::move(file));
+        return absl::OkStatus();
+    };
+    const std::string errors = errorsCsv(report.runs);
+    RETURN_IF_ERROR(write(framesCsv(report.runs), "frames.csv"));
+    if (!errors.empty())
+        RETURN_IF_ERROR(write(errors, "errors.csv"));
+    RETURN_IF_ERROR(write(reportPage(report), "index.html"));
+    RETURN_IF_ERROR(write(summaryJson(report), "summary.json"));
+    // There is room for all of them: what replaces an earlier report is whole, or its summary gone.
+    std::error_code error;
+    fs::remove(folder + "/summary.json", error);
+    if (errors.empty())
+        fs::remove(folder + "/errors.csv", error);
+    for (mesh::OutputFile& file : files) RETURN_IF_ERROR(file.commit());
+    return absl::OkStatus();
 }
 
 }  // namespace eyrie::cli::bench

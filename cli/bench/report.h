@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct BenchFacts {
     int repeats = 0;
     std::string command;             ///< that does it again
     std::string occlusion = "auto";  ///< as it was asked for
+    std::uint64_t flightHash = 0;    ///< NamedFlight::hash
+    std::uint64_t sceneHash = 0;     ///< of the data's contents, and of where they stand
 };
 
 struct Report {
@@ -41,12 +44,14 @@ std::string reportPage(const Report& report);
 /// A line a run, for a terminal.
 std::string table(const std::vector<BenchRun>& runs);
 
-/// Whether writeReport() into `folder` would do; measuring takes long. Errors: as checkFolder().
+/// Whether writeReport() into `folder` would do, and replace nothing but an earlier report;
+/// measuring takes long. Errors: as checkFolder(); InvalidArgument (a file of that name is
+/// another's).
 absl::Status checkReportFolder(const std::string& folder);
 
 /// Writes all three, and errors.csv where something was measured, into `folder`, which is made
-/// where there is none; an errors.csv of an earlier report goes. Errors: those of
-/// fabric::writeError.
+/// where there is none; an errors.csv of an earlier report goes. Where there is no room for all of
+/// them, what was there stays. Errors: those of fabric::writeError.
 absl::Status writeReport(const Report& report, const std::string& folder);
 
 }  // namespace eyrie::cli::bench

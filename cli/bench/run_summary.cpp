@@ -220,4 +220,20 @@ std::optional<double> efficiency(const std::vector<UniformLevel>& levels, double
     return std::nullopt;
 }
 
+std::string whyNoEfficiency(const std::vector<UniformLevel>& levels, double p99Pixels,
+                            double triangles) {
+    if (efficiency(levels, p99Pixels, triangles))
+        return "";
+    if (levels.empty())
+        return "no uniform level has an error";
+    const auto byError = [](const UniformLevel& a, const UniformLevel& b) {
+        return a.p99Pixels < b.p99Pixels;
+    };
+    const auto [finest, coarsest] = std::ranges::minmax_element(levels, byError);
+    if (p99Pixels < finest->p99Pixels)
+        return "finer than the finest uniform level";
+    return p99Pixels > coarsest->p99Pixels ? "coarser than the coarsest uniform level"
+                                           : "nothing was drawn";
+}
+
 }  // namespace eyrie::cli::bench

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cli/bench/frame_error.h"
@@ -91,5 +92,9 @@ ErrorSummary summarize(const MeasuredErrors& measured);
 std::optional<double> efficiency(const std::vector<UniformLevel>& levels, double p99Pixels,
                                  double triangles,
                                  double UniformLevel::*count = &UniformLevel::triangles);
+
+/// Why efficiency() of these is none, for people; empty where it is one.
+std::string whyNoEfficiency(const std::vector<UniformLevel>& levels, double p99Pixels,
+                            double triangles);
 
 }  // namespace eyrie::cli::bench

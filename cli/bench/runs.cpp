@@ -2,6 +2,7 @@
 #include "cli/bench/runs.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -9,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/progress_bar.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli::bench {
@@ -29,6 +29,16 @@ BenchRun runOf(const Asked& asked, int renderers, const ConfigOptions& config) {
     return run;
 }
 
+std::uint64_t hashOf(const fabric::SceneInfo& scene) {
+    std::uint64_t hash = 0;
+    const auto add = [&](std::uint64_t value) { hash = hash * 31 + value; };
+    for (const fabric::DataFile& file : scene.files) add(file.checksum);
+    for (const fabric::ObjectInfo& object : scene.objects)
+        for (const fabric::Vec3& corner : {object.bounds.min, object.bounds.max})
+            for (int axis = 0; axis < 3; ++axis) add(std::bit_cast<std::uint64_t>(corner[axis]));
+    return hash;
+}
+
 absl::Status playRun(const RunPlan& plan, BenchRun& run, const std::function<void()>& frameDone,
                      const std::stop_token& stop) {
     PictureSourceOptions options = plan.pictures;
@@ -36,6 +46,7 @@ absl::Status playRun(const RunPlan& plan, BenchRun& run, const std::function<voi
     ASSIGN_OR_RETURN(const auto pictures, PictureSource::open(plan.scene, options, stop));
     ASSIGN_OR_RETURN(fabric::CameraPath path, plan.flight.over(pictures->sceneInfo().bounds));
     run.flightNote = std::move(path.note);
+    run.sceneHash = hashOf(pictures->sceneInfo());
     PlayOptions play = plan.play;
     play.request.tauPixels = run.tauPixels;
     if (run.budgetMilliseconds > 0) {
@@ -63,14 +74,18 @@ std::string drawnBy(int renderers, const std::string& compound) {
     return renderers == 1 ? "1 renderer" : fmt::format("{} renderers, {}", renderers, compound);
 }
 
+ProgressBar::Style progressStyle(const RunPlan& plan) {
+    return plan.progressJson ? ProgressBar::Style::Json
+                             : ProgressBar::styleFor(plan.pictures.quiet);
+}
+
 absl::StatusOr<std::vector<BenchRun>> playRuns(const RunPlan& plan, const std::stop_token& stop) {
     const auto passesOf = [&](const Asked& asked) {
         const bool keeps = asked.budgetMilliseconds > 0 && !plan.keeps.empty();
         return plan.play.repeats + (keeps ? 2 : 1);
     };
-    ProgressBar bar(
-        "bench", plan.play.frames * (plan.play.repeats + 1), "frames",
-        plan.progressJson ? ProgressBar::Style::Json : ProgressBar::styleFor(plan.pictures.quiet));
+    ProgressBar bar("bench", plan.play.frames * (plan.play.repeats + 1), "frames",
+                    progressStyle(plan));
     const import::Progress progress = bar.callback();
     std::vector<BenchRun> runs;
     for (const int renderers : plan.renderers)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -12,6 +13,7 @@
 #include "cli/bench/frame_error.h"
 #include "cli/bench/play.h"
 #include "cli/picture_source.h"
+#include "cli/progress_bar.h"
 
 /// A bench is runs: the same flight at each error, drawn by each number of processes.
 namespace eyrie::cli::bench {
@@ -27,6 +29,7 @@ struct BenchRun {
     std::optional<MeasuredErrors> measured = {};  ///< where a reference was asked for
     double budgetMilliseconds = 0;                ///< a frame time to hold; 0: tau was kept
     std::string flightNote = {};                  ///< what had to be assumed of it, or empty
+    std::uint64_t sceneHash = 0;                  ///< BenchFacts::sceneHash
 };
 
 /// Who drew a run, as a person says it: "one process", "1 renderer", "2 renderers, DB".
@@ -49,6 +52,9 @@ struct RunPlan {
     /// PlayOptions::keeps of runs that hold a frame time.
     std::vector<int> keeps = {};
 };
+
+/// How progress of what is done for these runs is shown.
+ProgressBar::Style progressStyle(const RunPlan& plan);
 
 /// Plays all runs, one after another, each with renderers of its own that have loaded nothing yet:
 /// what a run says does not depend on those before it. Shows progress on standard error. Errors:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <google/protobuf/struct.pb.h>
@@ -138,6 +139,10 @@ WrittenReport reportOf(const Field& field) {
     report.frames = bench.at("frames").count();
     report.command = bench.at("command").text();
     report.occlusion = bench.at("occlusion").text();
+    if (bench.has("flightHash"))
+        report.flightHash = bench.at("flightHash").text();
+    if (bench.has("sceneHash"))
+        report.sceneHash = bench.at("sceneHash").text();
     report.processor = field.at("machine").at("processor").text();
     report.device = field.at("machine").at("device").text();
     for (const Field& run : field.at("runs").list()) report.runs.push_back(runOf(run));
@@ -146,8 +151,20 @@ WrittenReport reportOf(const Field& field) {
 
 }  // namespace
 
+bool isSummary(const std::string& file) {
+    const auto text = readText(file);
+    Value value;
+    if (!text.ok() || !google::protobuf::util::JsonStringToMessage(*text, &value).ok())
+        return false;
+    absl::Status ignored;
+    const Field summary(value, "", ignored);
+    return summary.at("bench").has("scene") && summary.has("runs");
+}
+
 absl::StatusOr<WrittenReport> readReport(const std::string& path) {
-    const std::string file = std::filesystem::is_directory(path) ? path + "/summary.json" : path;
+    std::error_code error;  // what cannot be read is said below
+    const std::string file =
+        std::filesystem::is_directory(path, error) ? path + "/summary.json" : path;
     ASSIGN_OR_RETURN(const std::string text, readText(file));
     Value value;
     const auto parsed = google::protobuf::util::JsonStringToMessage(text, &value);

@@ -48,8 +48,13 @@ struct WrittenReport {
     std::string device;
     std::string command;
     std::string occlusion;
+    std::string flightHash;  ///< BenchFacts'; empty in reports of before it was told
+    std::string sceneHash;   ///< likewise
     std::vector<WrittenRun> runs;
 };
+
+/// Whether a file is there and of a report, this build's or another's.
+bool isSummary(const std::string& file);
 
 /// `path` is a report's folder or its summary.json. Errors: those of readText; InvalidArgument,
 /// naming file and field, where it is no summary, lacks a figure or has one that cannot be.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/summary_json.h"
 
+#include <fmt/format.h>
+
 #include "cli/bench/machine.h"
 #include "cli/bench/run_summary.h"
 
@@ -113,6 +115,9 @@ JsonObject toJson(const BenchRun& run, const std::vector<UniformLevel>& uniform)
     addMeasured(errors, json);
     if (const auto factor = efficiency(uniform, errors.p99Pixels, errors.trianglesMean))
         json.number("efficiency", *factor);
+    else
+        json.text("efficiencyMissing",
+                  whyNoEfficiency(uniform, errors.p99Pixels, errors.trianglesMean));
     if (const auto factor = efficiency(uniform, errors.p99Pixels, errors.trianglesMean,
                                        &UniformLevel::trianglesWhole))
         json.number("efficiencyWhole", *factor);
@@ -128,7 +133,9 @@ JsonObject toJson(const BenchFacts& facts) {
         .count("frames", static_cast<std::uint64_t>(facts.frames))
         .count("repeats", static_cast<std::uint64_t>(facts.repeats))
         .text("command", facts.command)
-        .text("occlusion", facts.occlusion);
+        .text("occlusion", facts.occlusion)
+        .text("flightHash", fmt::format("{:016x}", facts.flightHash))
+        .text("sceneHash", fmt::format("{:016x}", facts.sceneHash));
     return json;
 }
 

@@ -20,20 +20,21 @@ constexpr int kMostLevels = 24;
 /// A regular grid as it is drawn: one triangle on each side of the main diagonal.
 class DrawnGrid final : public truth::ReferenceSurface {
 public:
-    explicit DrawnGrid(truth::HeightGrid grid) : caster_(std::move(grid)) {}
+    explicit DrawnGrid(std::shared_ptr<const truth::TerrainRayCaster> caster)
+        : caster_(std::move(caster)) {}
 
     HitRange hitRange(const truth::Ray& ray) const override {
         const double hit =
-            caster_.firstHits(ray)[static_cast<std::size_t>(truth::CellSurface::MainDiagonal)];
+            caster_->firstHits(ray)[static_cast<std::size_t>(truth::CellSurface::MainDiagonal)];
         return {hit, hit};
     }
     std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override {
-        return caster_.counterpart(point);
+        return caster_->counterpart(point);
     }
-    const truth::HeightGrid& grid() const { return caster_.grid(); }
+    const truth::HeightGrid& grid() const { return caster_->grid(); }
 
 private:
-    truth::TerrainRayCaster caster_;
+    std::shared_ptr<const truth::TerrainRayCaster> caster_;
 };
 
 struct Decimated {
@@ -42,16 +43,20 @@ struct Decimated {
     std::function<std::size_t(const fabric::Mat4&, const truth::Pinhole&)> inView;  ///< of these
 };
 
-Decimated decimated(const truth::TerrainRayCaster& terrain, double share) {
+/// At a half no post is left out: the source itself.
+Decimated decimated(const std::shared_ptr<const truth::TerrainRayCaster>& terrain, double share) {
     const int stride = static_cast<int>(std::lround(std::sqrt(1 / share)));
-    const truth::HeightGrid& grid = terrain.grid();
+    const truth::HeightGrid& grid = terrain->grid();
     if ((std::min(grid.columns, grid.rows) - 1) / stride < 1)
         return {};
-    truth::HeightGrid coarse = truth::everyPost(grid, stride);
-    const std::size_t triangles = truth::trianglesOf(coarse);
+    const auto caster =
+        stride == 1
+            ? terrain
+            : std::make_shared<const truth::TerrainRayCaster>(truth::everyPost(grid, stride));
+    const std::size_t triangles = truth::trianglesOf(caster->grid());
     if (triangles == 0)
         return {};
-    const auto drawn = std::make_shared<DrawnGrid>(std::move(coarse));
+    const auto drawn = std::make_shared<DrawnGrid>(caster);
     return {drawn, triangles, [drawn](const fabric::Mat4& placed, const truth::Pinhole& camera) {
                 return truth::trianglesInView(drawn->grid(), placed, camera);
             }};
@@ -88,7 +93,7 @@ Level levelOf(const ReferenceScene& reference, double share) {
     for (const ReferenceScene::Object& object : reference.objects) {
         const auto [place, isNew] = known.try_emplace(object.source.surface().get());
         if (isNew)
-            place->second = object.source.terrain ? decimated(*object.source.terrain, share)
+            place->second = object.source.terrain ? decimated(object.source.terrain, share)
                                                   : decimated(*object.source.mesh, share);
         if (!place->second.surface)
             continue;

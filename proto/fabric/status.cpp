@@ -25,6 +25,9 @@ absl::Status writeError(std::string_view path, std::string_view what, int error)
             return absl::NotFoundError(message + "; create the folder first");
         case EISDIR:
             return absl::InvalidArgumentError(message + "; name a file, not a folder");
+        case ENAMETOOLONG:
+        case ELOOP:
+            return absl::InvalidArgumentError(message + "; name another one");
         case EACCES:
         case EPERM:
         case EROFS:

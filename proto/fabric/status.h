@@ -14,7 +14,8 @@ absl::Status withContext(const absl::Status& status, std::string_view context);
 
 /// What the system said (`error`, of errno) when `path` could not be written: "path: what: reason",
 /// and the remedy where there is one. NotFound (no such folder), InvalidArgument (a folder has the
-/// file's name), PermissionDenied, ResourceExhausted (disk full), Unavailable.
+/// file's name, or the name is too long or a loop of links), PermissionDenied, ResourceExhausted
+/// (disk full), Unavailable.
 absl::Status writeError(std::string_view path, std::string_view what, int error);
 
 }  // namespace eyrie::fabric

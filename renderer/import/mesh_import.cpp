@@ -90,8 +90,10 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
 
     control.report("writing", 0);
     RETURN_IF_ERROR(mesh::writeEym(packed, tree, *lod, backs,
-                                   {.isCoded = !options.isRaw, .sourceHash = sourceHash}, out,
-                                   control.stop));
+                                   {.isCoded = !options.isRaw,
+                                    .sourceHash = sourceHash,
+                                    .turnedTriangles = report.counts.orient.turnedTriangles},
+                                   out, control.stop));
     report.seconds.write = watch.lap();
     report.triangles = packed.triangles.size();
     report.vertices = packed.positions.size();

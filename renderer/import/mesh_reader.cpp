@@ -186,13 +186,18 @@ absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportContr
     return mesh;
 }
 
+absl::StatusOr<std::vector<std::string>> companionsOf(const std::string& path) {
+    std::vector<std::string> found;
+    RETURN_IF_ERROR(addCompanions(path, found));
+    return found;
+}
+
 absl::StatusOr<std::uint64_t> meshSourceHash(std::span<const std::string> paths) {
     std::uint64_t hash = 0;
     for (const std::string& path : paths) {
         ASSIGN_OR_RETURN(const std::uint64_t own, mesh::contentHash(path));
         hash = hash * 31 + own;
-        std::vector<std::string> others;
-        RETURN_IF_ERROR(addCompanions(path, others));
+        ASSIGN_OR_RETURN(const std::vector<std::string> others, companionsOf(path));
         for (const std::string& other : others) {
             ASSIGN_OR_RETURN(const std::uint64_t part, mesh::contentHash(other));
             hash = hash * 31 + part;

@@ -43,10 +43,12 @@ bool isPly(const std::string& path);
 /// What vertices are coloured without colours of their own, beside others that have some.
 inline constexpr fabric::Rgba kPlainColour{204, 204, 204, 255};
 
-/// Of the bytes of all files that a mesh is read from: `paths`, and the buffers, material files and
-/// textures that files of OBJ, glTF, AC3D, PLY and .jdn name, as far as they exist. One file
-/// without such company has the hash of its own bytes (mesh::contentHash). Errors: NotFound,
-/// PermissionDenied, InvalidArgument (a folder), Unavailable.
+/// The buffers, material files and textures that a file of OBJ, glTF, AC3D, PLY or .jdn names, as
+/// far as they exist. Errors: NotFound, PermissionDenied, InvalidArgument (a folder), Unavailable.
+absl::StatusOr<std::vector<std::string>> companionsOf(const std::string& path);
+
+/// Of the bytes of all files that a mesh is read from: `paths`, and companionsOf these. One file
+/// without such company has the hash of its own bytes (mesh::contentHash). Errors: as above.
 absl::StatusOr<std::uint64_t> meshSourceHash(std::span<const std::string> paths);
 
 }  // namespace eyrie::import

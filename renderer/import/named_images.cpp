@@ -52,4 +52,9 @@ std::vector<std::string> imagesNamedIn(std::string_view bytes) {
     return names;
 }
 
+bool isImageName(std::string_view name) {
+    const std::string_view ending = name.substr(name.rfind('.') + 1);
+    return !ending.empty() && lengthOfEnding(ending) == ending.size();
+}
+
 }  // namespace eyrie::import

@@ -11,4 +11,7 @@ namespace eyrie::import {
 /// quote, bracket, semicolon or control character before it. Sorted, each once.
 std::vector<std::string> imagesNamedIn(std::string_view bytes);
 
+/// Whether a file's name ends as an image's does.
+bool isImageName(std::string_view name);
+
 }  // namespace eyrie::import

@@ -90,7 +90,9 @@ struct EymHeader {
     std::uint64_t pointRangesChecksum = 0;  ///< xxh64 of the point ranges
     std::uint64_t lightsChecksum = 0;       ///< xxh64 of the lights and their cones, if any
     std::uint64_t lightCount = 0;           ///< at most fabric::kMaxLights
-    std::array<std::uint64_t, 8> reserved{};
+    /// Of the source, that the import wound the other way round; 0 in files of before it was told.
+    std::uint64_t turnedTriangles = 0;
+    std::array<std::uint64_t, 7> reserved{};
 };
 static_assert(sizeof(EymHeader) == 256);
 
@@ -233,6 +235,8 @@ public:
     double finestErrorMetres() const { return header_.finestErrorMetres; }
     /// Of a leaf, where measuring frames chose that number; otherwise 0.
     std::uint64_t tunedLeafTriangles() const { return header_.tunedLeafTriangles; }
+    /// Of the source, that were wound the other way round in it.
+    std::uint64_t turnedTriangles() const { return header_.turnedTriangles; }
     int levels() const { return levels_; }  ///< nodes on the longest way from root to leaf
 
     fabric::Box bounds() const { return bounds(0); }  ///< object space, metres

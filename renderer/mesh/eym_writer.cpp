@@ -392,6 +392,7 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     if (!lights.empty())
         header.lightsChecksum = contentHash(bytesOf(lights, cones));
     header.sourceHash = options.sourceHash;
+    header.turnedTriangles = options.turnedTriangles;
     header.fileBytes = end;
     header.checksum = headerChecksum(header);
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(&header, 1))));

@@ -20,7 +20,8 @@ namespace eyrie::mesh {
 struct EymOptions {
     /// Pages are coded; otherwise they lie in the file as they are drawn.
     bool isCoded = true;
-    std::uint64_t sourceHash = 0;  ///< kept in the file (EymFile::sourceHash)
+    std::uint64_t sourceHash = 0;       ///< kept in the file (EymFile::sourceHash)
+    std::uint64_t turnedTriangles = 0;  ///< likewise
     /// Of source positions, where they are kept; else the least that holds them.
     std::optional<ExactForm> exactForm = {};
 };

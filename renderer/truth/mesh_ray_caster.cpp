@@ -21,7 +21,10 @@ using fabric::Box;
 using fabric::Vec3;
 
 constexpr std::uint32_t kLeafTriangles = 4;
-constexpr double kRounding = 1.0 / (1 << 20);  ///< of coordinates, to a lattice of 2^20 steps or so
+/// Of coordinates: of the longest side, to a lattice of 2^20 steps or so, and of themselves, in
+/// single precision.
+constexpr double kLatticeRounding = 1.0 / (1 << 20);
+constexpr double kSingleRounding = 1.0 / (1 << 23);
 
 Triangle corners(const TriangleMesh& mesh, std::size_t index) {
     const auto& [a, b, c] = mesh.triangles[index];
@@ -148,8 +151,10 @@ bool MeshRayCaster::hasNoArea(const Triangle& triangle) const {
     const double longest =
         std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
     const Box& bounds = nodes_.front().bounds;
-    const Vec3 farthest = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
-    const double rounding = kRounding * std::max({farthest.x, farthest.y, farthest.z});
+    const auto longestOf = [](const Vec3& v) { return std::max({v.x, v.y, v.z}); };
+    const double rounding =
+        kLatticeRounding * longestOf(bounds.size()) +
+        kSingleRounding * longestOf(glm::max(glm::abs(bounds.min), glm::abs(bounds.max)));
     return glm::length(glm::cross(b - a, c - a)) <= longest * rounding;
 }
 

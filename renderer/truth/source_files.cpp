@@ -12,6 +12,7 @@
 #include "renderer/import/dem_source.h"
 #include "renderer/import/joined_meshes.h"
 #include "renderer/import/mesh_reader.h"
+#include "renderer/import/named_images.h"
 #include "renderer/import/ply_reader.h"
 
 namespace eyrie::truth {
@@ -26,6 +27,13 @@ std::uint64_t posts(const terrain::GridFrame& frame) {
     return static_cast<std::uint64_t>(frame.columns) * static_cast<std::uint64_t>(frame.rows);
 }
 
+/// Uniform decimation has every second post of every second row beside it, and a byte for each
+/// while it counts what is in view.
+std::uint64_t bytesOfTerrain(std::uint64_t count) {
+    const std::uint64_t ofLevel = count / 4;
+    return TerrainRayCaster::bytesFor(count) + TerrainRayCaster::bytesFor(ofLevel) + ofLevel;
+}
+
 absl::StatusOr<std::uint64_t> bytesOfMeshFile(const std::string& path) {
     if (import::isPly(path)) {
         ASSIGN_OR_RETURN(const import::PlySize size, import::measurePly(path));
@@ -33,14 +41,21 @@ absl::StatusOr<std::uint64_t> bytesOfMeshFile(const std::string& path) {
             size.fileBytes + size.vertices * kBytesOfReadVertex + size.faces * kBytesOfReadTriangle,
             MeshRayCaster::bytesFor(size.vertices, size.faces));
     }
-    std::error_code ignored;
-    const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
-    return ignored ? 0 : kBytesOfFileByte * bytes;
+    ASSIGN_OR_RETURN(std::vector<std::string> files, import::companionsOf(path));
+    std::erase_if(files, import::isImageName);  // coded about as they are, and not kept
+    files.push_back(path);
+    std::uint64_t sum = 0;
+    for (const std::string& file : files) {
+        std::error_code ignored;
+        const std::uintmax_t bytes = std::filesystem::file_size(file, ignored);
+        sum += ignored ? 0 : kBytesOfFileByte * bytes;
+    }
+    return sum;
 }
 
 absl::StatusOr<SourceFacts> inspectTerrain(const std::vector<std::string>& paths) {
     ASSIGN_OR_RETURN(const import::DemSource source, import::openDems(paths, {}));
-    return SourceFacts{source.hash, TerrainRayCaster::bytesFor(posts(source.posts->frame()))};
+    return SourceFacts{source.hash, bytesOfTerrain(posts(source.posts->frame()))};
 }
 
 absl::StatusOr<SourceFacts> inspectMesh(const std::vector<std::string>& paths) {
@@ -69,28 +84,35 @@ absl::StatusOr<SourceSurface> readTerrain(const std::vector<std::string>& paths)
     return SourceSurface{std::make_shared<TerrainRayCaster>(std::move(grid)), nullptr, source.hash};
 }
 
-Sight sightOf(const mesh::Material& material, bool isOneSided) {
-    if (material.isSeeThrough() || (material.flags & import::kAlphaByImage) != 0)
-        return Sight::Unsure;
-    return material.isOneSided() || (isOneSided && !material.isTwoSided()) ? Sight::SureFromFront
-                                                                           : Sight::Sure;
+/// Of a triangle that is drawn from one side.
+Sight sightOfOneSide(const MeshSides& sides) {
+    return sides.areTurned ? Sight::Unsure : Sight::SureFromFront;
 }
 
-std::vector<Sight> sightsOf(const import::TriangleMesh& mesh, bool isOneSided) {
+Sight sightOf(const mesh::Material& material, const MeshSides& sides) {
+    if (material.isSeeThrough() || (material.flags & import::kAlphaByImage) != 0)
+        return Sight::Unsure;
+    return material.isOneSided() || (sides.isOneSided && !material.isTwoSided())
+               ? sightOfOneSide(sides)
+               : Sight::Sure;
+}
+
+std::vector<Sight> sightsOf(const import::TriangleMesh& mesh, const MeshSides& sides) {
     if (mesh.materials.empty())
-        return isOneSided ? std::vector(mesh.triangles.size(), Sight::SureFromFront)
-                          : std::vector<Sight>();
+        return sides.isOneSided ? std::vector(mesh.triangles.size(), sightOfOneSide(sides))
+                                : std::vector<Sight>();
     std::vector<Sight> sights;
     for (const auto& triangle : mesh.triangles)
-        sights.push_back(sightOf(mesh.materials[mesh.materialOf[triangle[0]]], isOneSided));
+        sights.push_back(sightOf(mesh.materials[mesh.materialOf[triangle[0]]], sides));
     return sights;
 }
 
-absl::StatusOr<SourceSurface> readMesh(const std::vector<std::string>& paths, bool isOneSided) {
+absl::StatusOr<SourceSurface> readMesh(const std::vector<std::string>& paths,
+                                       const MeshSides& sides) {
     ASSIGN_OR_RETURN(import::TriangleMesh mesh, import::readMeshes(paths));
     if (mesh.triangles.empty())
         return absl::InvalidArgumentError(fmt::format("{}: has no triangles", paths.front()));
-    std::vector<Sight> sights = sightsOf(mesh, isOneSided);
+    std::vector<Sight> sights = sightsOf(mesh, sides);
     TriangleMesh triangles{std::move(mesh.positions), std::move(mesh.triangles), std::move(sights)};
     mesh = {};
     ASSIGN_OR_RETURN(const std::uint64_t hash, import::meshSourceHash(paths));
@@ -105,8 +127,9 @@ absl::StatusOr<SourceFacts> inspectSource(fabric::ObjectKind kind,
 }
 
 absl::StatusOr<SourceSurface> readSource(fabric::ObjectKind kind,
-                                         const std::vector<std::string>& paths, bool isOneSided) {
-    return kind == fabric::ObjectKind::Mesh ? readMesh(paths, isOneSided) : readTerrain(paths);
+                                         const std::vector<std::string>& paths,
+                                         const MeshSides& sides) {
+    return kind == fabric::ObjectKind::Mesh ? readMesh(paths, sides) : readTerrain(paths);
 }
 
 }  // namespace eyrie::truth

@@ -39,11 +39,20 @@ struct SourceSurface {
     }
 };
 
-/// Reads all of it. `isOneSided`: a mesh's triangles are drawn from their fronts only, but where
-/// their material has two sides. Errors: those of openDems and readMeshes; InvalidArgument (no
-/// triangles, no post with data).
+/// From where a mesh's triangles are drawn.
+struct MeshSides {
+    bool isOneSided = false;  ///< from their fronts only, but where their material has two sides
+    /// The import wound some the other way round: the source does not tell what is their front, and
+    /// those of one side may be seen through.
+    bool areTurned = false;
+
+    bool operator==(const MeshSides&) const = default;
+};
+
+/// Reads all of it. Errors: those of openDems and readMeshes; InvalidArgument (no triangles, no
+/// post with data).
 absl::StatusOr<SourceSurface> readSource(fabric::ObjectKind kind,
                                          const std::vector<std::string>& paths,
-                                         bool isOneSided = false);
+                                         const MeshSides& sides = {});
 
 }  // namespace eyrie::truth

@@ -326,6 +326,25 @@ TEST_F(CompareReports, OnlyTheSameFlightOverTheSameSceneIsCompared) {
     EXPECT_FALSE(compared(reportTaking(20), other).ok());
 }
 
+TEST_F(CompareReports, FlightsOfOneNameThatAreNotTheSameAreRefused) {
+    Report other = reportTaking(20);
+    other.facts.flightHash = 7;
+    EXPECT_THAT(std::string(compared(reportTaking(20), other).status().message()),
+                testing::AllOf(HasSubstr("other flights"), HasSubstr("--force")));
+    EXPECT_TRUE(compared(reportTaking(20), other, true).ok());
+    WrittenReport before = written(reportTaking(20), "a.json").value();
+    before.flightHash.clear();
+    EXPECT_TRUE(compare(before, written(other, "b.json").value(), false).ok()) << "nobody knows";
+}
+
+TEST_F(CompareReports, DataOfOneNameThatAreNotTheSameAreSaid) {
+    Report other = reportTaking(20);
+    EXPECT_THAT(compared(reportTaking(20), other)->notes, testing::IsEmpty());
+    other.facts.sceneHash = 7;
+    EXPECT_THAT(compared(reportTaking(20), other)->notes,
+                testing::ElementsAre(HasSubstr("other data of the name dem.eyt")));
+}
+
 TEST_F(CompareReports, RunsOfOneReportOnlyAreSaid) {
     Report other = reportTaking(20);
     other.runs.pop_back();
@@ -344,6 +363,8 @@ TEST_F(CompareReports, DamagedReportsAreRefusedWithTheField) {
         return refusal(damaged);
     };
     EXPECT_EQ(readReport(folder_.path("none")).status().code(), absl::StatusCode::kNotFound);
+    std::filesystem::create_symlink("loop", folder_.path("loop"));
+    EXPECT_EQ(readReport(folder_.path("loop")).status().code(), absl::StatusCode::kInvalidArgument);
     EXPECT_THAT(refusal(""), HasSubstr("damaged.json: this is no summary of eyrie bench"));
     EXPECT_THAT(refusal(good.substr(0, good.size() / 2)), HasSubstr("damaged.json"));
     EXPECT_THAT(refusal("[1]"), HasSubstr("damaged.json: bench.scene is missing"));
@@ -363,6 +384,18 @@ TEST_F(CompareReports, AComparisonDoesNotTakeThePlaceOfAReport) {
     folder_.write("index.html", "the report");
     EXPECT_TRUE(absl::IsInvalidArgument(writeComparison(*comparison, folder_.path("."))));
     EXPECT_EQ(std::filesystem::file_size(folder_.path("index.html")), 10U);
+}
+
+TEST_F(CompareReports, AComparisonTakesThePlaceOfNoPageButAComparisons) {
+    const auto comparison = compared(reportTaking(20, 5), reportTaking(22, 5));
+    ASSERT_TRUE(comparison.ok()) << comparison.status();
+    folder_.write("index.html", "somebody's");
+    EXPECT_TRUE(absl::IsInvalidArgument(writeComparison(*comparison, folder_.path("."))));
+    std::filesystem::remove(folder_.path("index.html"));
+    EXPECT_TRUE(writeComparison(*comparison, folder_.path(".")).ok());
+    EXPECT_TRUE(writeComparison(*comparison, folder_.path(".")).ok()) << "its own";
+    std::filesystem::create_symlink("loop", folder_.path("loop"));
+    EXPECT_FALSE(writeComparison(*comparison, folder_.path("loop")).ok());
 }
 
 TEST_F(CompareReports, ThePageAndTheJsonSayTheSame) {

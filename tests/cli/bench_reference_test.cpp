@@ -73,6 +73,40 @@ TEST_F(ReferenceSources, AreWhereTheyWereImportedFromOrBesideOrWhereOneSays) {
     EXPECT_EQ(foundFile({folder_.path("elsewhere/ball.ply")}), folder_.path("elsewhere/ball.ply"));
 }
 
+/// Two imports of one file name each, and one of both, all moved.
+TEST_F(ReferenceSources, OfOneNameAreToldByTheirHashAndTakenInTheirOrder) {
+    for (const char* name : {"a", "b", "moved", "moved/a", "moved/b"})
+        fs::create_directory(folder_.path(name));
+    const std::vector<std::string> from{writeBall("a/ball.ply", 3), writeBall("b/ball.ply", 4)};
+    const std::vector<std::string> moved{folder_.path("moved/a/ball.ply"),
+                                         folder_.path("moved/b/ball.ply")};
+    const std::vector<std::vector<std::string>> sources{{from[0]}, {from[1]}, from};
+    scene_.objects.clear();
+    for (const auto& files : sources) {
+        const std::string imported =
+            folder_.path(fmt::format("import {}.eym", scene_.objects.size()));
+        ASSERT_TRUE(import::importMesh(files, imported, {}, {}).ok());
+        ASSERT_TRUE(recordSources(imported, files).ok());
+        scene_.objects.push_back({.name = "ball", .path = imported});
+    }
+    for (std::size_t i = 0; i < from.size(); ++i) fs::rename(from[i], moved[i]);
+    const auto expectFound = [&] {
+        const auto found = find(moved);
+        ASSERT_TRUE(found.ok()) << found.status();
+        EXPECT_EQ(found->at(0).files, std::vector{moved[0]});
+        EXPECT_EQ(found->at(1).files, std::vector{moved[1]});
+        EXPECT_EQ(found->at(2).files, moved);
+    };
+    expectFound();
+    for (const fabric::SceneObject& object : scene_.objects)
+        fs::remove(sourceRecordName(object.path));
+    expectFound();
+    const std::string other = writeBall("other.ply", 5);
+    const absl::Status refused = find({moved[1], other}).status();
+    EXPECT_TRUE(absl::IsInvalidArgument(refused)) << refused;
+    EXPECT_THAT(refused.ToString(), testing::HasSubstr("nor is " + other));
+}
+
 TEST_F(ReferenceSources, ThatAreNowhereAreNamed) {
     fs::remove(source_);
     const absl::Status gone = find().status();
@@ -131,6 +165,33 @@ TEST_F(ReferenceSources, OfTerrainsAreReadWithTheirHash) {
     EXPECT_EQ(source->hash, facts->hash);
 }
 
+/// Its heights, and a quarter of them for uniform decimation.
+TEST_F(ReferenceSources, OfTerrainsTakeMemoryForALevelOfUniformDecimation) {
+    const std::string path = folder_.path("dem.asc");
+    std::ofstream(path) << "ncols 64\nnrows 64\nxllcorner 0\nyllcorner 0\ncellsize 10\n"
+                        << [] {
+                               std::string posts;
+                               for (int i = 0; i < 64 * 64; ++i) posts += "7 ";
+                               return posts;
+                           }();
+    const auto facts = truth::inspectSource(fabric::ObjectKind::Terrain, {path});
+    ASSERT_TRUE(facts.ok()) << facts.status();
+    EXPECT_GE(facts->neededBytes, truth::TerrainRayCaster::bytesFor(64 * 64) +
+                                      truth::TerrainRayCaster::bytesFor(32 * 32));
+}
+
+TEST_F(ReferenceSources, OfGltfTakeMemoryForTheirBuffers) {
+    const std::string path = folder_.path("big.gltf");
+    std::ofstream(path) << R"({"asset":{"version":"2.0"},"images":[{"uri":"sky.png"}],)"
+                        << R"("buffers":[{"uri":"big.bin","byteLength":100000}]})";
+    std::ofstream(folder_.path("big.bin")) << std::string(100'000, '\0');
+    std::ofstream(folder_.path("sky.png")) << std::string(500'000, '\0');
+    const auto facts = truth::inspectSource(fabric::ObjectKind::Mesh, {path});
+    ASSERT_TRUE(facts.ok()) << facts.status();
+    EXPECT_GE(facts->neededBytes, 8U * 100'000);
+    EXPECT_LT(facts->neededBytes, 8U * 500'000) << "images are not kept";
+}
+
 TEST_F(ReferenceSources, ThatMemoryCannotHoldAreRefusedWithWhatTheyTake) {
     const absl::Status refused = find({}, 100 << 10).status();
     EXPECT_TRUE(absl::IsResourceExhausted(refused)) << refused;
@@ -184,6 +245,31 @@ TEST_F(ReferenceSources, OfAnObjectOfOneSideMayBeSeenThroughFromBehind) {
     EXPECT_LT(rangeFrom(0, 0).last, 100);
     EXPECT_EQ(rangeFrom(10, 0).first, rangeFrom(0, 0).first);
     EXPECT_EQ(rangeFrom(10, 0).last, truth::kNoHit);
+}
+
+/// Turned by the import, what is a front in the file is none in the picture.
+TEST_F(ReferenceSources, WhoseTrianglesTheImportTurnedMayBeSeenThroughFromEitherSide) {
+    const std::string path = folder_.path("inside out.obj");
+    std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                           "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
+    for (const bool orients : {false, true}) {
+        scene_.objects = {
+            {.name = "oriented", .path = folder_.path("oriented.eym"), .singleSided = true}};
+        import::MeshImportOptions options;
+        options.pack.orients = orients;
+        ASSERT_TRUE(import::importMesh({path}, scene_.objects[0].path, options, {}).ok());
+        const auto found = find({path});
+        ASSERT_TRUE(found.ok()) << found.status();
+        const auto reference = readSources(scene_, *found);
+        ASSERT_TRUE(reference.ok()) << reference.status();
+        const auto range = reference->surface->hitRange({{0.1, 0.1, 0.1}, {0, 0, -1}});
+        EXPECT_NEAR(range.first, 0.1, 1e-6);
+        if (orients) {
+            EXPECT_EQ(range.last, truth::kNoHit);
+        } else {
+            EXPECT_NEAR(range.last, 0.1, 1e-6);
+        }
+    }
 }
 
 TEST_F(ReferenceSources, StandWhereTheSceneHasThem) {
@@ -421,6 +507,58 @@ TEST(FlightJudge, AFrameWithHolesIsWorseThanOneThatComesNearItsPromise) {
     EXPECT_LT(measured->frames.at(1).maxPixels, 0.1);
     EXPECT_EQ(measured->frames[1].holes, 100U);
     EXPECT_EQ(measured->worst.at(0).error.seconds, 1);
+}
+
+/// Tells at which tau it was asked for pictures.
+class TauPictures final : public PictureSource {
+public:
+    absl::StatusOr<coordinator::RenderedFrame> draw(
+        const coordinator::FrameRequest& request) override {
+        taus.push_back(request.tauPixels);
+        return exact_.draw(request);
+    }
+    fabric::SceneInfo sceneInfo() const override { return {}; }
+
+    std::vector<double> taus;
+
+private:
+    LiftedPlane exact_{0};
+};
+
+TEST_F(ReferenceSources, AreComparedInColourAtTheLeastTauOfAllRuns) {
+    auto flight = NamedFlight::read("orbit");
+    ASSERT_TRUE(flight.ok()) << flight.status();
+    RunPlan plan{imported_, *std::move(flight), {{1}, {0.01}, {4}}, {0}, {}, {}};
+    plan.pictures.quiet = true;
+    plan.pictures.drawing.cache.folder = folder_.path("cache");
+    const auto reference = planReference(plan, {}, {});
+    ASSERT_TRUE(reference.ok()) << reference.status();
+    EXPECT_EQ(reference->frames.finestTauPixels, 0.01);
+    plan.asked.resize(1);
+    EXPECT_EQ(planReference(plan, {}, {})->frames.finestTauPixels, kFinestTauPixels);
+    plan.progressJson = true;
+    EXPECT_EQ(progressStyle(plan), ProgressBar::Style::Json) << "quiet or not";
+}
+
+TEST(FlightJudge, ComparesColoursWithTheFinestWhicheverRunComesFirst) {
+    const auto plane = LiftedPlane::source();
+    ReferenceScene scene{{{{plane, nullptr}, "plane.eyt"}},
+                         std::make_shared<truth::PlacedSurfaces>(
+                             std::vector<truth::PlacedSurface>{{plane, fabric::Mat4(1)}})};
+    const fabric::Camera there{.eye = {32, -60, 30}, .target = {32, -32, 7}, .fovYDegrees = 20};
+    FlightJudge judge(
+        std::move(scene), fabric::Flight{{{0, there}}},
+        {.width = 160, .height = 90, .played = 1, .judged = 1, .finestTauPixels = 0.01}, {});
+    LiftedPlane pictures(0.25F);
+    TauPictures finest;
+    for (const double tau : {1.0, 0.01}) {
+        coordinator::FrameRequest request;
+        request.width = 160;
+        request.height = 90;
+        request.tauPixels = tau;
+        ASSERT_TRUE(judge.judge(pictures, finest, request, [] {}, {}).ok());
+    }
+    EXPECT_THAT(finest.taus, testing::ElementsAre(0.01)) << "drawn once, for both";
 }
 
 std::vector<BenchRun> runWith(double maxPixels, double promisedPixels) {

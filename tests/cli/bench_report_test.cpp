@@ -277,6 +277,22 @@ TEST(Efficiency, IsNotGuessedBeyondWhatWasMeasured) {
     EXPECT_EQ(efficiency({levels[0]}, 0.1125, 100), std::nullopt);
 }
 
+TEST(Efficiency, SaysWhyItIsNone) {
+    const std::vector<UniformLevel> levels = madeUpReport().uniform;
+    EXPECT_EQ(whyNoEfficiency(levels, 0.1125, 100), "");
+    EXPECT_EQ(whyNoEfficiency(levels, 0.1, 100), "finer than the finest uniform level");
+    EXPECT_EQ(whyNoEfficiency(levels, 1, 100), "coarser than the coarsest uniform level");
+    EXPECT_EQ(whyNoEfficiency(levels, 0.3, 0), "nothing was drawn");
+    EXPECT_EQ(whyNoEfficiency({levels[0]}, 0.1, 100), "finer than the finest uniform level");
+    EXPECT_EQ(whyNoEfficiency({}, 0.1, 100), "no uniform level has an error");
+    Report made = madeUpReport();
+    for (FrameError& frame : made.runs[0].measured->frames) frame.p99Pixels = 0.05;
+    const auto run = test::list(parseJson(summaryJson(made)), "runs").at(0);
+    EXPECT_EQ(test::at(run, "efficiencyMissing").string_value(),
+              "finer than the finest uniform level");
+    EXPECT_EQ(test::at(run, "efficiency").kind_case(), test::JsonValue::KIND_NOT_SET);
+}
+
 TEST(BenchReport, WorstFramesAreInThePage) {
     EXPECT_EQ(base64(""), "");
     EXPECT_EQ(base64("f"), "Zg==");
@@ -349,10 +365,46 @@ TEST(BenchReport, HasNoErrorsOfAnEarlierReportBesideIt) {
     EXPECT_TRUE(std::filesystem::exists(folder.path("frames.csv")));
 }
 
+/// The page goes to a device that is full.
+TEST(BenchReport, WithoutRoomForAllOfItLeavesTheEarlierReport) {
+    const test::TemporaryFolder folder;
+    ASSERT_TRUE(writeReport(report("earlier.eyt"), folder.path("")).ok());
+    const auto size = std::filesystem::file_size(folder.path("frames.csv"));
+    std::filesystem::remove(folder.path("index.html"));
+    std::filesystem::create_symlink("/dev/full", folder.path("index.html"));
+    Report later = report("later.eyt");
+    later.runs.push_back(later.runs[0]);
+    EXPECT_TRUE(absl::IsResourceExhausted(writeReport(later, folder.path(""))));
+    EXPECT_EQ(std::filesystem::file_size(folder.path("frames.csv")), size);
+    std::ifstream summary(folder.path("summary.json"));
+    EXPECT_THAT(std::string(std::istreambuf_iterator<char>(summary), {}),
+                testing::HasSubstr("earlier.eyt"));
+}
+
+TEST(BenchReport, DoesNotTakeThePlaceOfOthersFiles) {
+    for (const char* name : {"errors.csv", "frames.csv", "index.html", "summary.json"}) {
+        const test::TemporaryFolder folder;
+        folder.write(name, "{}");
+        const absl::Status refused = checkReportFolder(folder.path(""));
+        EXPECT_TRUE(absl::IsInvalidArgument(refused)) << refused;
+        EXPECT_THAT(refused.ToString(), testing::HasSubstr(name));
+        std::filesystem::remove(folder.path(name));
+        ASSERT_TRUE(writeReport(report(), folder.path("")).ok());
+        folder.write(name == std::string("summary.json") ? "errors.csv" : name, "a report's");
+        EXPECT_TRUE(checkReportFolder(folder.path("")).ok()) << "an earlier report's";
+    }
+}
+
 TEST(BenchReport, AFolderThatCannotTakeItIsRefusedBeforeAnythingIsMade) {
     const test::TemporaryFolder folder;
     EXPECT_TRUE(checkReportFolder(folder.path("a/b")).ok());
     EXPECT_FALSE(std::filesystem::exists(folder.path("a")));
+    EXPECT_TRUE(
+        absl::IsInvalidArgument(checkReportFolder(folder.path("a/" + std::string(300, 'b')))));
+    EXPECT_FALSE(std::filesystem::exists(folder.path("a")));
+    std::filesystem::create_symlink("loop", folder.path("loop"));
+    EXPECT_FALSE(checkReportFolder(folder.path("loop")).ok());
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.path("loop"))) << "which it did not make";
     std::ofstream(folder.path("file")) << "no folder";
     EXPECT_TRUE(absl::IsInvalidArgument(checkReportFolder(folder.path("file"))));
     EXPECT_TRUE(absl::IsInvalidArgument(checkReportFolder(folder.path("file/b"))));

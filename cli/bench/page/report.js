@@ -41,7 +41,7 @@ function rowGroups() {
       ["medians of the passes, least to most", (run) => `${number(Math.min(...run.passes.map((pass) => pass.p50)))} – ${number(Math.max(...run.passes.map((pass) => pass.p50)))}`]],
     ["From a view to its picture, warm, ms", ["median", latency("p50")], ["p95", latency("p95")], ["frames in flight, at most", (run) => number(run.framesInFlight)]],
     ["First pass, ms a frame", ["median", first("p50")], ["p95", first("p95")], ["p99", first("p99")], ["longest", first("max")], ["loaded", (run) => mebibytes(run.bytesLoadedFirstPass)]],
-    ["Work", ["triangles a warm frame, mean", (run) => number(run.trianglesMean)], ["points a warm frame, mean", (run) => number(run.pointsMean)], ["triangles and points a measured frame, mean", measured((run) => number(run.trianglesMeasured))], ["times fewer than uniform decimation has in view", (run) => (run.efficiency ? `${number(run.efficiency, 2)}×` : "–")],
+    ["Work", ["triangles a warm frame, mean", (run) => number(run.trianglesMean)], ["points a warm frame, mean", (run) => number(run.pointsMean)], ["triangles and points a measured frame, mean", measured((run) => number(run.trianglesMeasured))], ["times fewer than uniform decimation has in view", (run) => (run.efficiency ? `${number(run.efficiency, 2)}×` : (run.efficiencyMissing ?? "–"))],
       ["times fewer than all of uniform decimation", (run) => (run.efficiencyWhole ? `${number(run.efficiencyWhole, 2)}×` : "–")],
       ["loaded in all passes", (run) => mebibytes(run.bytesLoaded)], ["memory, at most", (run) => mebibytes(run.peakResidentBytes)],
       ["takes longest", (run) => run.limitingStage || "–"], ["the bench itself, of the frames’ time", (run) => `${number(run.overheadPercent, 2)} %`]],

@@ -223,6 +223,18 @@ TEST(MeshRayCaster, LooksThroughSeamsThatTrianglesWithoutAreaClose) {
     EXPECT_NEAR(MeshRayCaster(mesh).throughSeams(above, 1e-3).last, 1, 1e-12);
 }
 
+/// The same wall where maps have it: what is two metres high there is no line.
+TEST(MeshRayCaster, FarFromTheOriginTrianglesHaveAreaAsNearIt) {
+    const Vec3 there(5e5, 5e6, 100);
+    TriangleMesh mesh;
+    mesh.positions = {{-9, 10, 0}, {9, 10, 0},   {0, 10, 9},  {1.1, 10, -2}, {-5, 10, -9},
+                      {5, 10, -9}, {-9, 20, -9}, {9, 20, -9}, {0, 20, 9}};
+    for (Vec3& position : mesh.positions) position += there;
+    mesh.triangles = {{0, 1, 2}, {0, 4, 3}, {3, 5, 1}, {0, 3, 1}, {6, 7, 8}};
+    const MeshRayCaster caster(mesh);
+    EXPECT_NEAR(caster.throughSeams({there, {0.1, 10, 5e-4}}, 1e-3).last, 1, 1e-9);
+}
+
 TEST(MeshRayCaster, LooksThroughWhereWhatGoesOnIsSeenFromBehind) {
     // A triangle, one on its lower side that is drawn from the front alone, and a wall behind.
     const auto hung = [](bool isFront) {
