@@ -216,6 +216,37 @@ TEST(TileEqualizer, HasChildrenFetchTilesWhileItIsOn) {
     EXPECT_TRUE(balanced.live == balanced.written);
 }
 
+TEST(TileEqualizer, HasAQueueOfItsOwnWhateverItIsCalled) {
+    const std::string half =
+        "compound { name \"half\" tile_equalizer { name \"q\" } compound { } compound { channel "
+        "\"s1\" } } ";
+    Balanced balanced(
+        configurationOf(1, "compound { channel ( segment 0 view 0 ) " + half + half + "}"));
+    balanced.apply();
+    const std::vector<config::Compound>& halves = balanced.live.compounds[0].children;
+    EXPECT_NE(halves[0].outputTiles[0].name, halves[1].outputTiles[0].name);
+    for (const config::Compound& each : halves) {
+        EXPECT_EQ(each.children[0].inputTiles, each.outputTiles);
+        EXPECT_EQ(each.children[1].inputTiles, each.outputTiles);
+    }
+}
+
+TEST(TileEqualizer, LeavesWhatIsReadBackBelowItAsItIsWritten) {
+    Balanced balanced(configurationOf(
+        2,
+        "compound { channel ( segment 0 view 0 ) tile_equalizer { } "
+        "compound { viewport [ 0 0 .5 1 ] compound { } compound { channel \"s1\" outputframe { "
+        "name \"a\" } } inputframe { name \"a\" } } "
+        "compound { viewport [ .5 0 .5 1 ] channel \"s2\" compound { } outputframe { name "
+        "\"b\" } } inputframe { name \"b\" } }"));
+    balanced.apply();
+    const config::Compound& root = balanced.live.compounds[0];
+    EXPECT_EQ(root.children[0].viewport, config::Viewport{});
+    for (const config::Compound& taker : root.children[0].children)
+        EXPECT_EQ(taker.inputTiles, root.outputTiles);
+    EXPECT_TRUE(root.children[1] == balanced.written.compounds[0].children[1]);
+}
+
 TEST(TileEqualizer, TakesTurnsWithALoadEqualizer) {
     Balanced balanced(
         configurationOf(1, sharedBetween(2, "load_equalizer { } tile_equalizer { size .25 }")));
