@@ -321,7 +321,11 @@ TEST(EqcWarnings, SayWhereAnEqualizerTearsPicturesOfSeveralEyesOrPhases) {
     for (const char* equalizer : {"load_equalizer", "tree_equalizer"}) {
         EXPECT_THAT(found(equalizer, "period 2 phase 0", "period 2 phase 1"),
                     HasSubstr("f:2:1: warning: the equalizer shares out one picture, but its "
-                              "children draw for other eyes or in other frames"));
+                              "children draw for other eyes, in other frames"));
+        EXPECT_THAT(found(equalizer, "pixel [ 0 0 2 1 ]", "pixel [ 1 0 2 1 ]"),
+                    HasSubstr("or other pixels or samples than each other"));
+        EXPECT_THAT(found(equalizer, "subpixel [ 0 2 ]", "subpixel [ 1 2 ]"),
+                    HasSubstr("or other pixels or samples than each other"));
         EXPECT_EQ(found(equalizer, "", ""), "");
         EXPECT_EQ(found(equalizer, "", "task [ CLEAR ] period 2 phase 1"), "");
     }
