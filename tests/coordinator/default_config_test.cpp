@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -168,6 +169,41 @@ TEST(ConfigurationState, TunesEqualizersAsFarAsAFileMay) {
     EXPECT_THAT(messageOf(tuneEqualizer(made, state, 1, foreign)), HasSubstr("'framerate'"));
     EXPECT_THAT(messageOf(tuneEqualizer(made, state, 2, {})), HasSubstr("there are 2"));
     EXPECT_EQ(state, before);
+}
+
+TEST(ConfigurationState, DividesNoDataWhoseDepthsNobodySends) {
+    const auto divided = [](std::string_view equalizer, std::string_view child,
+                            std::string_view frame, const EqualizerTuning& settings) {
+        Findings findings;
+        const Configuration written = readEqc(
+            fmt::format(
+                "config {{ appNode {{ pipe {{ window {{ channel {{ name \"a\" }} channel {{ "
+                "name \"b\" }} }} }} }} layout {{ view {{ }} }} canvas {{ layout 0 segment "
+                "{{ channel \"a\" }} }}\ncompound {{ channel ( segment 0 view 0 ) {} "
+                "compound {{ }}\ncompound {{ name \"helper\" channel \"b\" {}\noutputframe {{ "
+                "name \"f\" {} }} }} inputframe {{ name \"f\" }} }} }}",
+                equalizer, child, frame),
+            findings);
+        EXPECT_FALSE(findings.hasErrors()) << describe(findings, "f");
+        ConfigurationState state = initialState(written);
+        const ConfigurationState before = state;
+        const absl::Status status = tuneEqualizer(written, state, 0, settings);
+        EXPECT_EQ(state == before, !status.ok());
+        return messageOf(status);
+    };
+    EqualizerTuning db;
+    db.mode = SplitMode::Db;
+    EqualizerTuning chunks;
+    chunks.tileChunk = .1;
+    const std::string refused =
+        "equalizer 0: it cannot divide data: the outputframe \"f\" of compound \"helper\" at 4:1 "
+        "has "
+        "no DEPTH, so it would cover what is nearer; write buffer [ COLOR DEPTH ] there";
+    EXPECT_EQ(divided("load_equalizer { }", "", "buffer [ COLOR ]", db), refused);
+    EXPECT_EQ(divided("tree_equalizer { }", "buffer [ COLOR ]", "", db), refused);
+    EXPECT_EQ(divided("tile_equalizer { }", "buffer [ COLOR ]", "", chunks), refused);
+    EXPECT_EQ(divided("load_equalizer { }", "", "", db), "");
+    EXPECT_EQ(divided("load_equalizer { }", "buffer [ COLOR ]", "buffer [ COLOR DEPTH ]", db), "");
 }
 
 TEST(ConfigurationState, MovesHeadsRigidlyOnly) {
