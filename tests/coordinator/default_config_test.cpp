@@ -20,6 +20,7 @@ namespace eyrie::config {
 namespace {
 
 using testing::ElementsAre;
+using testing::Eq;
 using testing::HasSubstr;
 
 std::vector<RendererFacts> renderers(std::size_t count) {
@@ -166,7 +167,13 @@ TEST(ConfigurationState, TunesEqualizersAsFarAsAFileMay) {
     EXPECT_THAT(messageOf(tuneEqualizer(made, state, 1, settings)), HasSubstr("from 0 to 1"));
     EqualizerTuning foreign;
     foreign.framerate = 30;
-    EXPECT_THAT(messageOf(tuneEqualizer(made, state, 1, foreign)), HasSubstr("'framerate'"));
+    EXPECT_THAT(messageOf(tuneEqualizer(made, state, 1, foreign)),
+                Eq("equalizer 1: framerate is a setting of a DFR_equalizer, and this is a "
+                   "load_equalizer; leave it out"));
+    foreign = {};
+    foreign.tileSize = fabric::Vec2(8, 8);
+    EXPECT_THAT(messageOf(tuneEqualizer(made, state, 0, foreign)),
+                HasSubstr("equalizer 0: tileSize is a setting of a tile_equalizer"));
     EXPECT_THAT(messageOf(tuneEqualizer(made, state, 2, {})), HasSubstr("there are 2"));
     EXPECT_EQ(state, before);
 }
