@@ -34,30 +34,6 @@ std::string describe(std::span<const Gap> gaps, const PixelViewport& whole) {
                        where);
 }
 
-/// Whether an equalizer says, while it runs, what each compound of a destination draws.
-std::vector<bool> areBalanced(const config::ResolvedConfiguration& resolved) {
-    std::vector<bool> balanced(resolved.destinations.size(), false);
-    const auto choosesParts = [](const config::Equalizer& each) {
-        return each.kind == config::EqualizerKind::Load ||
-               each.kind == config::EqualizerKind::Tree || each.kind == config::EqualizerKind::View;
-    };
-    const auto& all = resolved.compounds;
-    for (std::size_t root = 0; root < all.size();) {
-        std::size_t end = root + 1;
-        while (end < all.size() && all[end].depth > 0) ++end;
-        const bool isBalanced =
-            std::any_of(all.begin() + std::ptrdiff_t(root), all.begin() + std::ptrdiff_t(end),
-                        [&](const config::ResolvedCompound& each) {
-                            return each.compound != nullptr &&
-                                   std::ranges::any_of(each.compound->equalizers, choosesParts);
-                        });
-        for (; root < end; ++root)
-            if (isBalanced && all[root].destination)
-                balanced[*all[root].destination] = true;
-    }
-    return balanced;
-}
-
 config::Place placeOf(std::size_t destination, const config::ResolvedConfiguration& resolved) {
     for (const config::ResolvedCompound& each : resolved.compounds)
         if (each.destination == destination)
@@ -70,14 +46,12 @@ config::Place placeOf(std::size_t destination, const config::ResolvedConfigurati
 void warnOfGaps(const config::ResolvedConfiguration& resolved, const WorkList& list,
                 std::span<const Picture> pictures, std::span<const Contents> contents,
                 config::Findings& findings) {
-    const std::vector<bool> balanced = areBalanced(resolved);
     for (const Picture& picture : pictures)
         for (const std::vector<PicturePart>* const parts : {&picture.parts, &picture.right})
             for (const PicturePart& part : *parts) {
                 const std::size_t destination = list.framebuffers[part.framebuffer].destination;
                 const Contents& there = contents[part.framebuffer];
-                if (there.all().empty() || balanced[destination] ||
-                    list.blind.contains(destination))
+                if (there.all().empty() || list.blind.contains(destination))
                     continue;
                 const std::vector<Gap> gaps = there.gaps(part.part);
                 if (!gaps.empty())

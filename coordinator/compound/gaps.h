@@ -10,8 +10,8 @@ namespace eyrie::compound {
 
 /// Warns of destinations of which some compounds draw something and nobody draws some part of the
 /// picture, of its pixels or of the data: it stays background. `contents`: of the list's
-/// framebuffers, in the end. Not of destinations that nothing is drawn of, whose eye is not before
-/// the wall, or whose parts an equalizer chooses; nor of samples (subpixel).
+/// framebuffers, in the end. Not of destinations that nothing is drawn of, or whose eye is not
+/// before the wall; nor of samples (subpixel).
 void warnOfGaps(const config::ResolvedConfiguration& resolved, const WorkList& list,
                 std::span<const Picture> pictures, std::span<const Contents> contents,
                 config::Findings& findings);

@@ -8,7 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "coordinator/compound/equalizer/equalizers.h"
 #include "coordinator/compound/plan.h"
+#include "coordinator/config/resolved.h"
 
 namespace eyrie::compound {
 namespace {
@@ -25,10 +27,20 @@ std::int64_t framesOf(const std::vector<config::Compound>& compounds, std::int64
     return std::min(before, kMostFramesTried);
 }
 
+/// As its equalizers share it out before the first frame: in any layout alike.
+config::Configuration balanced(const config::Configuration& written) {
+    config::Configuration live = written;
+    config::Findings findings;  // told by whoever resolved it before
+    const config::ResolvedConfiguration resolved = config::resolve(written, findings);
+    equalizer::Equalizers(written).apply(live, {.frameNumber = 0, .resolved = resolved});
+    return live;
+}
+
 class Checker {
 public:
     Checker(const config::Configuration& configuration, config::Findings& findings)
         : configuration_(configuration),
+          live_(balanced(configuration)),
           findings_(findings),
           frames_(framesOf(configuration.compounds, 1)) {}
 
@@ -55,7 +67,7 @@ private:
         for (std::int64_t frame = 0; frame < frames_; ++frame) {
             request.frameNumber = static_cast<std::uint64_t>(frame);
             Refusals refusals;
-            const std::optional<Plan> plan = makePlan(configuration_, request, refusals);
+            const std::optional<Plan> plan = makePlan(live_, request, refusals);
             for (const config::Finding& each : refusals.impossible.all())
                 if (isNew(each))
                     findings_.error(each.place, each.message);
@@ -75,6 +87,7 @@ private:
     }
 
     const config::Configuration& configuration_;
+    config::Configuration live_;
     config::Findings& findings_;
     std::int64_t frames_;
     std::set<std::pair<std::string, std::string>> said_;

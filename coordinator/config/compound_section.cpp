@@ -65,14 +65,16 @@ Tiles readTiles(const Statement& block, std::string_view what, ValueReader& read
                            reader.number(each, chunk);
                        if (reader.findings().errors() > errors)
                            return;
-                       if (isList && width > 0 && height > 0)
+                       if (isList && width > 0 && height > 0) {
                            tiles.size = fabric::Vec2(width, height);
-                       else if (!isList && chunk > 0 && chunk <= 1)
+                           tiles.chunk.reset();
+                       } else if (!isList && chunk > 0 && chunk <= 1) {
                            tiles.chunk = chunk;
-                       else
+                       } else {
                            reader.expected(each,
                                            "[ width height ] of a pixel or more, or a share "
                                            "of the range up to 1");
+                       }
                    }}});
     return tiles;
 }

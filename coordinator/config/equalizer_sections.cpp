@@ -38,11 +38,12 @@ void damping(const Statement& statement, ValueReader& reader, double& target) {
 }
 
 void positive(const Statement& statement, ValueReader& reader, double& target) {
-    double read = target;
+    const std::size_t errors = reader.findings().errors();
+    double read = 0;
     reader.number(statement, read);
     if (isAboveZero(read))
         target = read;
-    else
+    else if (reader.findings().errors() == errors)
         reader.expected(statement, "a number above 0");
 }
 
@@ -66,6 +67,7 @@ void tileSize(const Statement& statement, ValueReader& reader, Equalizer& equali
     if (!isTileSize(fabric::Vec2(width, height)))
         return reader.expected(statement, "a width and a height of a pixel or more");
     equalizer.tileSize = fabric::Vec2(width, height);
+    equalizer.tileChunk.reset();
 }
 
 void splitMode(const Statement& statement, ValueReader& reader, SplitMode& mode) {
@@ -95,10 +97,8 @@ Entry resistanceEntry(ValueReader& reader, Equalizer& equalizer) {
 }
 Entry limitEntry(ValueReader& reader, Equalizer& equalizer) {
     return {"assemble_only_limit", [&](const Statement& each) {
-                double limit = 0;
-                positive(each, reader, limit);
-                if (limit > 0)
-                    equalizer.assembleOnlyLimit = limit;
+                reader.optional(equalizer.assembleOnlyLimit,
+                                [&](double& limit) { positive(each, reader, limit); });
             }};
 }
 Entry framerateEntry(ValueReader& reader, Equalizer& equalizer) {

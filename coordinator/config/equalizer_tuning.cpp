@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "coordinator/config/equalizer_limits.h"
+#include "coordinator/config/statement_list.h"
 #include "fabric/status.h"
 
 namespace eyrie::config {
@@ -17,18 +18,22 @@ using Kind = EqualizerKind;
 std::string text(double value) { return fmt::format("{}", value); }
 std::string text(const fabric::Vec2& value) { return fmt::format("[ {} {} ]", value.x, value.y); }
 
-/// A setting by its name in files, and the kinds that have it.
+/// A setting by its name in EqualizerTuning messages, and the kinds that have it.
 struct Setting {
     const char* name;
     std::initializer_list<Kind> kinds;
 };
 
 absl::Status checkKind(const Setting& setting, Kind kind) {
-    for (const Kind each : setting.kinds)
+    std::string having;
+    for (const Kind each : setting.kinds) {
         if (each == kind)
             return absl::OkStatus();
+        having += fmt::format("{}a {}", having.empty() ? "" : " or ", keywordOf(each));
+    }
     return absl::InvalidArgumentError(
-        fmt::format("an equalizer of this kind has no '{}'", setting.name));
+        fmt::format("{} is a setting of {}, and this is a {}; leave it out", setting.name, having,
+                    keywordOf(kind)));
 }
 
 template <typename Value, typename Target>
@@ -56,9 +61,6 @@ absl::StatusOr<Equalizer> tuned(Equalizer settings, const EqualizerTuning& tunin
     constexpr const char* kPixels = "whole pixels from 0 to 1000000000, across and up";
     constexpr const char* kShare = "from 0 to 1";
     constexpr const char* kAboveZero = "above 0";
-    const Setting boundary{"boundary", {Kind::Load, Kind::Tree}};
-    const Setting resistance{"resistance", {Kind::Load, Kind::Tree}};
-    const Setting size{"size", {Kind::Tile}};
     const Kind kind = settings.kind;
     if (tuning.mode) {
         RETURN_IF_ERROR(checkKind({"mode", {Kind::Load, Kind::Tree}}, kind));
@@ -66,24 +68,24 @@ absl::StatusOr<Equalizer> tuned(Equalizer settings, const EqualizerTuning& tunin
     }
     RETURN_IF_ERROR(set({"damping", {Kind::Load, Kind::Tree, Kind::Dfr}}, kind, tuning.damping,
                         isShare, kShare, settings.damping));
-    RETURN_IF_ERROR(
-        set(boundary, kind, tuning.boundaryPixels, isPixels, kPixels, settings.boundaryPixels));
-    RETURN_IF_ERROR(
-        set(boundary, kind, tuning.boundaryRange, isShare, kShare, settings.boundaryRange));
-    RETURN_IF_ERROR(set(resistance, kind, tuning.resistancePixels, isPixels, kPixels,
-                        settings.resistancePixels));
-    RETURN_IF_ERROR(
-        set(resistance, kind, tuning.resistanceRange, isShare, kShare, settings.resistanceRange));
-    RETURN_IF_ERROR(set({"assemble_only_limit", {Kind::Load}}, kind, tuning.assembleOnlyLimit,
+    RETURN_IF_ERROR(set({"boundary", {Kind::Load, Kind::Tree}}, kind, tuning.boundaryPixels,
+                        isPixels, kPixels, settings.boundaryPixels));
+    RETURN_IF_ERROR(set({"boundaryRange", {Kind::Load, Kind::Tree}}, kind, tuning.boundaryRange,
+                        isShare, kShare, settings.boundaryRange));
+    RETURN_IF_ERROR(set({"resistance", {Kind::Load, Kind::Tree}}, kind, tuning.resistancePixels,
+                        isPixels, kPixels, settings.resistancePixels));
+    RETURN_IF_ERROR(set({"resistanceRange", {Kind::Load, Kind::Tree}}, kind, tuning.resistanceRange,
+                        isShare, kShare, settings.resistanceRange));
+    RETURN_IF_ERROR(set({"assembleOnlyLimit", {Kind::Load}}, kind, tuning.assembleOnlyLimit,
                         isAboveZero, kAboveZero, settings.assembleOnlyLimit));
     RETURN_IF_ERROR(set({"framerate", {Kind::Dfr}}, kind, tuning.framerate, isAboveZero, kAboveZero,
                         settings.framerate));
-    RETURN_IF_ERROR(set(size, kind, tuning.tileSize, isTileSize,
+    RETURN_IF_ERROR(set({"tileSize", {Kind::Tile}}, kind, tuning.tileSize, isTileSize,
                         "a width and a height of a pixel or more", settings.tileSize));
     if (tuning.tileSize)
         settings.tileChunk.reset();
-    RETURN_IF_ERROR(
-        set(size, kind, tuning.tileChunk, isChunk, "above 0, 1 at most", settings.tileChunk));
+    RETURN_IF_ERROR(set({"tileChunk", {Kind::Tile}}, kind, tuning.tileChunk, isChunk,
+                        "above 0, 1 at most", settings.tileChunk));
     return settings;
 }
 

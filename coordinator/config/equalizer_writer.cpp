@@ -4,26 +4,6 @@
 namespace eyrie::config {
 namespace {
 
-std::string_view keywordOf(EqualizerKind kind) {
-    switch (kind) {
-        case EqualizerKind::Load:
-            return "load_equalizer";
-        case EqualizerKind::Tree:
-            return "tree_equalizer";
-        case EqualizerKind::Dfr:
-            return "DFR_equalizer";
-        case EqualizerKind::Tile:
-            return "tile_equalizer";
-        case EqualizerKind::View:
-            return "view_equalizer";
-        case EqualizerKind::Monitor:
-            return "monitor_equalizer";
-        case EqualizerKind::Framerate:
-            break;
-    }
-    return "framerate_equalizer";
-}
-
 std::string_view wordOf(SplitMode mode) {
     switch (mode) {
         case SplitMode::TwoD:
@@ -46,6 +26,26 @@ void pixelsOrRange(std::string_view keyword, const std::optional<fabric::Vec2>& 
 }
 
 }  // namespace
+
+std::string_view keywordOf(EqualizerKind kind) {
+    switch (kind) {
+        case EqualizerKind::Load:
+            return "load_equalizer";
+        case EqualizerKind::Tree:
+            return "tree_equalizer";
+        case EqualizerKind::Dfr:
+            return "DFR_equalizer";
+        case EqualizerKind::Tile:
+            return "tile_equalizer";
+        case EqualizerKind::View:
+            return "view_equalizer";
+        case EqualizerKind::Monitor:
+            return "monitor_equalizer";
+        case EqualizerKind::Framerate:
+            break;
+    }
+    return "framerate_equalizer";
+}
 
 /// What other kinds have is at its usual value, and so left out.
 void writeEqualizer(const Equalizer& equalizer, StatementList& list) {

@@ -20,7 +20,8 @@ bool dividesData(const Equalizer& equalizer) {
                                                  : equalizer.mode == SplitMode::Db;
 }
 
-void warnOfLostDepth(std::span<const ResolvedCompound> tree, Findings& findings) {
+std::vector<LostDepth> lostDepth(std::span<const ResolvedCompound> tree) {
+    std::vector<LostDepth> lost;
     std::vector<bool> isDivided;  // by the compounds above and at each level
     for (const ResolvedCompound& each : tree) {
         isDivided.resize(static_cast<std::size_t>(each.depth));
@@ -31,10 +32,16 @@ void warnOfLostDepth(std::span<const ResolvedCompound> tree, Findings& findings)
             continue;
         for (const ResolvedFrame& frame : each.outputFrames)
             if (frame.isMatched && !frame.frame->buffers.value_or(each.buffers).depth)
-                findings.warning(frame.frame->place,
-                                 "the outputframe has a part of the data and no DEPTH, so it "
-                                 "covers what is nearer; buffer [ COLOR DEPTH ] compares them");
+                lost.push_back({&each, &frame});
     }
+    return lost;
+}
+
+void warnOfLostDepth(std::span<const ResolvedCompound> tree, Findings& findings) {
+    for (const LostDepth& each : lostDepth(tree))
+        findings.warning(each.frame->frame->place,
+                         "the outputframe has a part of the data and no DEPTH, so it covers what "
+                         "is nearer; buffer [ COLOR DEPTH ] compares them");
 }
 
 }  // namespace eyrie::config

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "coordinator/config/destinations.h"
+#include "coordinator/config/idle_equalizers.h"
 #include "coordinator/config/lost_depth.h"
 #include "coordinator/config/phases.h"
 #include "coordinator/config/pixels.h"
@@ -82,6 +83,7 @@ public:
             warnOfQueueNames(tree, findings_);
             warnOfLostDepth(tree, findings_);
             warnOfTornPictures(tree, findings_);
+            warnOfIdleEqualizers(tree, findings_);
         }
         for (std::size_t i = 0; i < served_.size(); ++i)
             if (!served_[i])
@@ -278,7 +280,6 @@ private:
         if (compound.tasks && compound.tasks->draw && !compound.children.empty())
             findings_.note(compound.place,
                            "'DRAW' has no effect here: where a compound has children, they draw");
-        warnOfIdleEqualizers(compound, own);
         if (own.tasks.draw)
             addSights(own);
     }
@@ -337,19 +338,6 @@ private:
         if (compound.tasks && !compound.tasks->readback)
             warn(compound.outputFrames,
                  "the compound's task has no READBACK: the outputframe stays empty");
-    }
-
-    /// A view equalizer is for several pictures, these are for one.
-    void warnOfIdleEqualizers(const Compound& compound, const ResolvedCompound& own) {
-        const auto sharesOnePicture = [](EqualizerKind kind) {
-            return kind == EqualizerKind::Load || kind == EqualizerKind::Tree ||
-                   kind == EqualizerKind::Tile || kind == EqualizerKind::Dfr;
-        };
-        for (const Equalizer& each : compound.equalizers)
-            if (!own.destination && sharesOnePicture(each.kind))
-                findings_.warning(each.place,
-                                  "the equalizer has no effect: its compound is no part of a "
-                                  "view's picture, as with channel ( segment 0 view 0 )");
     }
 
     bool isChannelOfAncestor(const ResolvedCompound& own) const {

@@ -96,6 +96,7 @@ void writeLayout(const Configuration& all, const Layout& layout, StatementList& 
 void writeCanvas(const Configuration& all, const Canvas& canvas, StatementList& list);
 void writeCompound(const Configuration& all, const Compound& compound, StatementList& list);
 void writeEqualizer(const Equalizer& equalizer, StatementList& list);
+std::string_view keywordOf(EqualizerKind kind);  ///< load_equalizer
 
 void writeSurface(const Surface& surface, StatementList& list);
 void writeSwapBarrier(const std::optional<SwapBarrier>& barrier, StatementList& list);

@@ -19,7 +19,8 @@ std::span<const ResolvedCompound> below(std::span<const ResolvedCompound> tree,
     return rest.first(static_cast<std::size_t>(end - rest.begin()));
 }
 
-/// Of several children that draw, one for fewer eyes or in fewer frames than the compound.
+/// Of several children that draw, one for fewer eyes, in fewer frames, or fewer pixels or samples
+/// than the compound.
 bool isTorn(const ResolvedCompound& compound, std::span<const ResolvedCompound> family) {
     int drawing = 0;
     bool isTorn = false;
@@ -30,7 +31,8 @@ bool isTorn(const ResolvedCompound& compound, std::span<const ResolvedCompound> 
             !(draws(child) || std::ranges::any_of(below(family, i), draws)))
             continue;
         ++drawing;
-        isTorn = isTorn || child.eyes != compound.eyes || child.period != compound.period;
+        isTorn = isTorn || child.eyes != compound.eyes || child.period != compound.period ||
+                 child.pixel != compound.pixel || child.subpixel != compound.subpixel;
     }
     return isTorn && drawing > 1;
 }
@@ -43,9 +45,9 @@ void warnOfTornPictures(std::span<const ResolvedCompound> tree, Findings& findin
             if (sharesOut(each) && tree[i].destination && isTorn(tree[i], below(tree, i)))
                 findings.warning(each.place,
                                  "the equalizer shares out one picture, but its children draw for "
-                                 "other eyes or in other frames than each other, so parts are "
-                                 "missing; give those of each eye or phase a compound with an "
-                                 "equalizer of its own");
+                                 "other eyes, in other frames, or other pixels or samples than "
+                                 "each other, so parts are missing; give those of each eye, phase, "
+                                 "pixel or subpixel a compound with an equalizer of its own");
 }
 
 }  // namespace eyrie::config

@@ -8,8 +8,9 @@
 
 namespace eyrie::config {
 
-/// Warns of load and tree equalizers between whose children eyes or phases are divided, too: each
-/// draws its part for its own eye or in its own frames, where nobody draws the others'.
+/// Warns of load and tree equalizers between whose children eyes, phases, pixels or samples are
+/// divided, too: each draws its part for its own eye, in its own frames or its own pixels, where
+/// nobody draws the others'.
 void warnOfTornPictures(std::span<const ResolvedCompound> tree, Findings& findings);
 
 }  // namespace eyrie::config

@@ -141,12 +141,13 @@ void ValueReader::numbers(const Statement& statement, std::initializer_list<doub
 
 void ValueReader::wholeNumbers(const Statement& statement,
                                std::initializer_list<std::int64_t*> targets) {
-    constexpr double kMost = 1e9;
+    constexpr std::int64_t kMost = 1'000'000'000;
     if (!isList(statement, targets.size(), true) ||
         std::ranges::any_of(statement.values, [](const Scalar& value) {
-            return value.number < 0 || value.number > kMost;
+            return value.number < 0 || value.number > static_cast<double>(kMost);
         }))
-        return expected(statement, fmt::format("{} whole numbers in [ ]", targets.size()));
+        return expected(statement,
+                        fmt::format("{} whole numbers from 0 to {} in [ ]", targets.size(), kMost));
     auto value = statement.values.begin();
     for (std::int64_t* const target : targets)
         *target = static_cast<std::int64_t>((value++)->number);

@@ -91,13 +91,39 @@ TEST(EqcErrors, AreImpossibleShares) {
              {"projection { distance 0 }", "above 0"},
              {"load_equalizer { damping 2 }", "from 0 to 1"},
              {"load_equalizer { boundary 1.5 }", "a share from 0 to 1"},
-             {"load_equalizer { resistance [ -1 2 ] }", "2 whole numbers"},
+             {"load_equalizer { resistance [ -1 2 ] }",
+              "2 whole numbers from 0 to 1000000000 in [ ]"},
              {"load_equalizer { assemble_only_limit 0 }", "above 0"},
              {"tile_equalizer { size 1.5 }", "a share above 0, 1 at most"},
              {"tile_equalizer { size [ 0 4 ] }", "a pixel or more"},
              {"DFR_equalizer { framerate 0 }", "above 0"}})
         EXPECT_THAT(firstError(withCompounds("compound { " + compound + " }")), HasSubstr(message))
             << compound;
+}
+
+TEST(EqcErrors, AreSaidOnceOfASettingThatIsNoNumber) {
+    for (const char* equalizer :
+         {"load_equalizer { assemble_only_limit", "DFR_equalizer { framerate"})
+        EXPECT_EQ(Read(withCompounds(std::string("compound { ") + equalizer + " \"x\" } }"))
+                      .findings.errors(),
+                  1U)
+            << equalizer;
+}
+
+TEST(EqcText, TakesTheLastSizeOfTiles) {
+    const auto read = [](const std::string& sizes) {
+        return Read(withCompounds("compound { tile_equalizer { " + sizes + " } outputtiles { " +
+                                  sizes + " } }"))
+            .configuration.compounds[0];
+    };
+    const Compound tiles = read("size .1 size [ 32 16 ]");
+    EXPECT_EQ(tiles.equalizers[0].tileChunk, std::nullopt);
+    EXPECT_EQ(tiles.equalizers[0].tileSize, fabric::Vec2(32, 16));
+    EXPECT_EQ(tiles.outputTiles[0].chunk, std::nullopt);
+    EXPECT_EQ(tiles.outputTiles[0].size, fabric::Vec2(32, 16));
+    const Compound chunks = read("size [ 32 16 ] size .1");
+    EXPECT_EQ(chunks.equalizers[0].tileChunk, .1);
+    EXPECT_EQ(chunks.outputTiles[0].chunk, .1);
 }
 
 TEST(EqcErrors, AreViewportsOfPixelsThatHaveNone) {

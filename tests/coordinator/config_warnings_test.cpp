@@ -309,7 +309,68 @@ TEST(EqcWarnings, SayWhichEqualizersHaveNoPictureToShareOut) {
     EXPECT_EQ(found("view_equalizer"), "");
 }
 
-TEST(EqcWarnings, SayWhereAnEqualizerTearsPicturesOfSeveralEyesOrPhases) {
+/// Of an equalizer on line 2, with these children, in a picture of 640 x 480.
+std::string foundOfEqualizer(const std::string& equalizer, const std::string& children) {
+    return describe(Read(withCompounds("compound { channel ( segment 0 view 0 )\n" + equalizer +
+                                       "\n" + children + " }"))
+                        .findings,
+                    "f");
+}
+
+TEST(EqcWarnings, SayWhichEqualizersHaveNothingToWorkOn) {
+    for (const char* equalizer :
+         {"load_equalizer {}", "tree_equalizer {}", "view_equalizer {}", "framerate_equalizer {}"})
+        for (const char* children : {"", "compound { task [ CLEAR ] }"})
+            EXPECT_THAT(foundOfEqualizer(equalizer, children),
+                        testing::StartsWith("f:2:1: warning: the equalizer has no effect: its "
+                                            "compound has no children that draw\n"))
+                << equalizer << children;
+    EXPECT_EQ(foundOfEqualizer("monitor_equalizer {}", ""),
+              "f:2:1: warning: the equalizer has no effect: its compound has no inputframe\n");
+    EXPECT_EQ(foundOfEqualizer("tile_equalizer {} DFR_equalizer {}", ""), "");
+}
+
+TEST(EqcWarnings, SayWhichSettingsAreOfAnotherMode) {
+    const auto found = [](const std::string& settings) {
+        return foundOfEqualizer("load_equalizer { " + settings + " }", "compound {} compound {}");
+    };
+    EXPECT_EQ(found("mode DB boundary [ 64 64 ] resistance [ 5 5 ]"),
+              "f:2:1: warning: a boundary in pixels has no effect in mode DB; write a share of the "
+              "data, such as boundary .01\n"
+              "f:2:1: warning: a resistance in pixels has no effect in mode DB; write a share of "
+              "the data, such as resistance .01\n");
+    EXPECT_EQ(found("mode 2D boundary .3"),
+              "f:2:1: warning: a boundary that is a share of the data has an effect in mode DB "
+              "only; write pixels, such as boundary [ 16 16 ]\n");
+    for (const char* settings :
+         {"mode DB boundary [ 1 1 ] resistance [ 0 0 ]", "boundary 0 resistance 0",
+          "boundary [ 64 64 ] boundary .3", "mode DB boundary .3", "boundary [ 64 64 ]"})
+        EXPECT_EQ(found(settings), "") << settings;
+}
+
+TEST(EqcWarnings, SayWhichBoundariesLeaveOneChildAll) {
+    const auto found = [](const std::string& settings) {
+        return foundOfEqualizer("tree_equalizer { " + settings + " }", "compound {} compound {}");
+    };
+    for (const char* settings : {"boundary [ 640 480 ]", "mode VERTICAL boundary [ 640 1 ]",
+                                 "mode HORIZONTAL boundary [ 1 480 ]", "mode DB boundary 1"})
+        EXPECT_EQ(found(settings),
+                  "f:2:1: warning: the boundary is as large as what is shared out, so one child "
+                  "draws all of it; write a smaller one\n")
+            << settings;
+    EXPECT_EQ(found("boundary [ 640 1 ]"), "");
+}
+
+TEST(EqcWarnings, SayWhatTakesNoTilesOfATileEqualizer) {
+    EXPECT_EQ(foundOfEqualizer("tile_equalizer {}",
+                               "compound {}\ncompound { channel \"b\" compound {} outputframe {} } "
+                               "inputframe { name \"frame.b\" }"),
+              "f:4:1: warning: what is drawn for this compound's outputframe takes no tiles of the "
+              "tile_equalizer above: the frame would cover others' tiles; give outputframes to the "
+              "compounds that draw instead\n");
+}
+
+TEST(EqcWarnings, SayWhereAnEqualizerTearsPicturesOfSeveralEyesPhasesOrPixels) {
     const auto found = [](const std::string& equalizer, const std::string& first,
                           const std::string& second) {
         return describe(
@@ -321,7 +382,11 @@ TEST(EqcWarnings, SayWhereAnEqualizerTearsPicturesOfSeveralEyesOrPhases) {
     for (const char* equalizer : {"load_equalizer", "tree_equalizer"}) {
         EXPECT_THAT(found(equalizer, "period 2 phase 0", "period 2 phase 1"),
                     HasSubstr("f:2:1: warning: the equalizer shares out one picture, but its "
-                              "children draw for other eyes or in other frames"));
+                              "children draw for other eyes, in other frames"));
+        EXPECT_THAT(found(equalizer, "pixel [ 0 0 2 1 ]", "pixel [ 1 0 2 1 ]"),
+                    HasSubstr("or other pixels or samples than each other"));
+        EXPECT_THAT(found(equalizer, "subpixel [ 0 2 ]", "subpixel [ 1 2 ]"),
+                    HasSubstr("or other pixels or samples than each other"));
         EXPECT_EQ(found(equalizer, "", ""), "");
         EXPECT_EQ(found(equalizer, "", "task [ CLEAR ] period 2 phase 1"), "");
     }

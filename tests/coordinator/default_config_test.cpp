@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,6 +20,7 @@ namespace eyrie::config {
 namespace {
 
 using testing::ElementsAre;
+using testing::Eq;
 using testing::HasSubstr;
 
 std::vector<RendererFacts> renderers(std::size_t count) {
@@ -165,9 +167,50 @@ TEST(ConfigurationState, TunesEqualizersAsFarAsAFileMay) {
     EXPECT_THAT(messageOf(tuneEqualizer(made, state, 1, settings)), HasSubstr("from 0 to 1"));
     EqualizerTuning foreign;
     foreign.framerate = 30;
-    EXPECT_THAT(messageOf(tuneEqualizer(made, state, 1, foreign)), HasSubstr("'framerate'"));
+    EXPECT_THAT(messageOf(tuneEqualizer(made, state, 1, foreign)),
+                Eq("equalizer 1: framerate is a setting of a DFR_equalizer, and this is a "
+                   "load_equalizer; leave it out"));
+    foreign = {};
+    foreign.tileSize = fabric::Vec2(8, 8);
+    EXPECT_THAT(messageOf(tuneEqualizer(made, state, 0, foreign)),
+                HasSubstr("equalizer 0: tileSize is a setting of a tile_equalizer"));
     EXPECT_THAT(messageOf(tuneEqualizer(made, state, 2, {})), HasSubstr("there are 2"));
     EXPECT_EQ(state, before);
+}
+
+TEST(ConfigurationState, DividesNoDataWhoseDepthsNobodySends) {
+    const auto divided = [](std::string_view equalizer, std::string_view child,
+                            std::string_view frame, const EqualizerTuning& settings) {
+        Findings findings;
+        const Configuration written = readEqc(
+            fmt::format(
+                "config {{ appNode {{ pipe {{ window {{ channel {{ name \"a\" }} channel {{ "
+                "name \"b\" }} }} }} }} layout {{ view {{ }} }} canvas {{ layout 0 segment "
+                "{{ channel \"a\" }} }}\ncompound {{ channel ( segment 0 view 0 ) {} "
+                "compound {{ }}\ncompound {{ name \"helper\" channel \"b\" {}\noutputframe {{ "
+                "name \"f\" {} }} }} inputframe {{ name \"f\" }} }} }}",
+                equalizer, child, frame),
+            findings);
+        EXPECT_FALSE(findings.hasErrors()) << describe(findings, "f");
+        ConfigurationState state = initialState(written);
+        const ConfigurationState before = state;
+        const absl::Status status = tuneEqualizer(written, state, 0, settings);
+        EXPECT_EQ(state == before, !status.ok());
+        return messageOf(status);
+    };
+    EqualizerTuning db;
+    db.mode = SplitMode::Db;
+    EqualizerTuning chunks;
+    chunks.tileChunk = .1;
+    const std::string refused =
+        "equalizer 0: it cannot divide data: the outputframe \"f\" of compound \"helper\" at 4:1 "
+        "has "
+        "no DEPTH, so it would cover what is nearer; write buffer [ COLOR DEPTH ] there";
+    EXPECT_EQ(divided("load_equalizer { }", "", "buffer [ COLOR ]", db), refused);
+    EXPECT_EQ(divided("tree_equalizer { }", "buffer [ COLOR ]", "", db), refused);
+    EXPECT_EQ(divided("tile_equalizer { }", "buffer [ COLOR ]", "", chunks), refused);
+    EXPECT_EQ(divided("load_equalizer { }", "", "", db), "");
+    EXPECT_EQ(divided("load_equalizer { }", "buffer [ COLOR ]", "buffer [ COLOR DEPTH ]", db), "");
 }
 
 TEST(ConfigurationState, MovesHeadsRigidlyOnly) {

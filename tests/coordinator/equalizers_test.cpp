@@ -140,6 +140,15 @@ TEST(FramerateEqualizer, SpacesTheFramesOfAPeriodEvenly) {
     EXPECT_EQ(balanced.equalizers.intervalMilliseconds(), 0) << "of what is not shown";
 }
 
+TEST(FramerateEqualizer, AddsUpWhatOnePipeDrawsForAFrame) {
+    Balanced balanced(configurationOf(
+        1,
+        "compound { channel ( segment 0 view 0 ) framerate_equalizer { } compound { } compound "
+        "{ } compound { channel \"s1\" } }"));
+    balanced.draw([](const auto&) { return 20; });
+    EXPECT_NEAR(balanced.equalizers.intervalMilliseconds(), 40 * 1.05, 1e-9);
+}
+
 const std::string kReduced =
     "compound { channel ( segment 0 view 0 ) compound { DFR_equalizer { framerate 20 } "
     "outputframe { name \"small\" } } inputframe { name \"small\" } }";
@@ -173,6 +182,33 @@ TEST(DfrEqualizer, ComesToRestWhileFramesAreInFlight) {
                 }
             }
         }
+}
+
+TEST(DfrEqualizer, HoldsTheRateOfChildrenThatDrawOneAfterTheOther) {
+    Balanced balanced(configurationOf(
+        1,
+        "compound { channel ( segment 0 view 0 ) compound { DFR_equalizer { framerate 20 } "
+        "compound { range [ 0 .3 ] } compound { range [ .3 .8 ] } compound { range [ .8 1 ] "
+        "channel \"s1\" } outputframe { name \"small\" } } inputframe { name \"small\" } }"));
+    std::vector<double> times;
+    for (int frame = 0; frame < 20; ++frame)
+        times = balanced.draw([](const config::ResolvedCompound& part) {
+            return 1e-4 * static_cast<double>(part.pixelViewport.area());
+        });
+    EXPECT_NEAR(times[2] + times[3], 50, 1);
+    EXPECT_NEAR(balanced.equalizers.states()[0].report.framesPerSecond, 20, .5);
+}
+
+TEST(DfrEqualizer, ReportsNothingOfBeforeItWasSwitchedOff) {
+    Balanced balanced(configurationOf(0, kReduced));
+    for (int frame = 0; frame < 5; ++frame) balanced.draw([](const auto&) { return 1e3; });
+    EXPECT_LT(balanced.equalizers.states()[0].report.zoom, 1);
+    Tuning off;
+    off.isOn = false;
+    ASSERT_TRUE(balanced.equalizers.tune(0, off).ok());
+    balanced.draw([](const auto&) { return 1e3; });
+    EXPECT_EQ(balanced.equalizers.states()[0].report.zoom, 1);
+    EXPECT_EQ(balanced.equalizers.states()[0].report.framesPerSecond, 0);
 }
 
 TEST(DfrEqualizer, LeavesFramesThatAreToBeCompleteAsTheyAreWritten) {
@@ -214,6 +250,37 @@ TEST(TileEqualizer, HasChildrenFetchTilesWhileItIsOn) {
     EXPECT_TRUE(balanced.equalizers.tune("0", off).ok());
     balanced.apply();
     EXPECT_TRUE(balanced.live == balanced.written);
+}
+
+TEST(TileEqualizer, HasAQueueOfItsOwnWhateverItIsCalled) {
+    const std::string half =
+        "compound { name \"half\" tile_equalizer { name \"q\" } compound { } compound { channel "
+        "\"s1\" } } ";
+    Balanced balanced(
+        configurationOf(1, "compound { channel ( segment 0 view 0 ) " + half + half + "}"));
+    balanced.apply();
+    const std::vector<config::Compound>& halves = balanced.live.compounds[0].children;
+    EXPECT_NE(halves[0].outputTiles[0].name, halves[1].outputTiles[0].name);
+    for (const config::Compound& each : halves) {
+        EXPECT_EQ(each.children[0].inputTiles, each.outputTiles);
+        EXPECT_EQ(each.children[1].inputTiles, each.outputTiles);
+    }
+}
+
+TEST(TileEqualizer, LeavesWhatIsReadBackBelowItAsItIsWritten) {
+    Balanced balanced(configurationOf(
+        2,
+        "compound { channel ( segment 0 view 0 ) tile_equalizer { } "
+        "compound { viewport [ 0 0 .5 1 ] compound { } compound { channel \"s1\" outputframe { "
+        "name \"a\" } } inputframe { name \"a\" } } "
+        "compound { viewport [ .5 0 .5 1 ] channel \"s2\" compound { } outputframe { name "
+        "\"b\" } } inputframe { name \"b\" } }"));
+    balanced.apply();
+    const config::Compound& root = balanced.live.compounds[0];
+    EXPECT_EQ(root.children[0].viewport, config::Viewport{});
+    for (const config::Compound& taker : root.children[0].children)
+        EXPECT_EQ(taker.inputTiles, root.outputTiles);
+    EXPECT_TRUE(root.children[1] == balanced.written.compounds[0].children[1]);
 }
 
 TEST(TileEqualizer, TakesTurnsWithALoadEqualizer) {

@@ -209,10 +209,76 @@ RC_GTEST_PROP(PlanCheck, FindsNoGapWhereAllIsDrawn, ()) {
     RC_ASSERT(describe(findings, "f").empty());
 }
 
+/// An equalizer over what "a" and "b" draw, each what is said of it.
+std::string balanced(std::string_view equalizer, std::string_view a, std::string_view b) {
+    return withCompounds(
+        fmt::format("compound {{ channel ( segment 0 view \"v\" ) buffer [ COLOR DEPTH ] {}\n"
+                    "compound {{ {} outputframe {{ name \"own\" }} }}\n"
+                    "compound {{ channel \"b\" {} }}\n"
+                    "inputframe {{ name \"own\" }} inputframe {{ name \"b\" }} }}",
+                    equalizer, a, b));
+}
+
 TEST(PlanCheck, LeavesPartsToTheEqualizerThatChoosesThem) {
+    for (const char* equalizer : {"load_equalizer { mode 2D }", "load_equalizer { mode DB }",
+                                  "tree_equalizer {}", "tile_equalizer {}"}) {
+        EXPECT_EQ(foundIn(balanced(equalizer, "viewport [ 0 0 .4 1 ]",
+                                   "viewport [ .5 0 .5 1 ] outputframe { name \"b\" }")),
+                  "")
+            << equalizer;
+    }
+}
+
+TEST(PlanCheck, WarnsOfTheHalfThatAnEqualizerLosesWithAChild) {
+    for (const char* equalizer :
+         {"load_equalizer { mode 2D }", "tree_equalizer {}", "tile_equalizer { size [ 320 480 ] }"})
+        EXPECT_EQ(foundIn(balanced(equalizer, "", "")),
+                  "f:2:1: warning: nothing draws 50 % of what is shown, in viewport [ 0.5 0 0.5 1 "
+                  "]: it is background\n")
+            << equalizer;
+    EXPECT_EQ(foundIn(balanced("load_equalizer {}", "pixel [ 0 0 2 1 ]",
+                               "pixel [ 1 0 2 1 ] outputframe { name \"b\" }")),
+              "f:2:1: warning: nothing draws 50 % of what is shown: it is background\n");
+    EXPECT_EQ(foundIn(balanced("load_equalizer { mode DB }", "compound { range [ 0 .5 ] }",
+                               "compound { range [ .5 1 ] } outputframe { name \"b\" }")),
+              "f:2:1: warning: nothing draws 50 % of what is shown, in range [ 0.25 0.75 ]: it is "
+              "background\n");
+}
+
+TEST(PlanCheck, FindsNoGapWhereTilesAreTakenInSeveralQueuesOrBelowOutputFrames) {
+    const auto half = [](std::string_view viewport, std::string_view frame) {
+        return fmt::format(
+            "compound {{ viewport [ {0} ] tile_equalizer {{ name \"q\" }} compound {{ }} compound "
+            "{{ "
+            "channel \"b\" outputframe {{ name \"{1}\" }} }} inputframe {{ name \"{1}\" }} }}",
+            viewport, frame);
+    };
+    EXPECT_EQ(foundIn(withCompounds("compound { channel ( segment 0 view \"v\" )\n" +
+                                    half("0 0 .5 1", "f") + half(".5 0 .5 1", "g") + " }")),
+              "");
+    EXPECT_EQ(foundIn(withCompounds(
+                  "compound { channel ( segment 0 view \"v\" ) tile_equalizer { }\n"
+                  "compound { compound { viewport [ 0 0 .5 1 ] } compound { viewport [ .5 0 .5 1 ] "
+                  "channel \"b\" outputframe { name \"a\" } } inputframe { name \"a\" } }\n"
+                  "compound { channel \"c\" compound { } outputframe { name \"r\" } }\n"
+                  "inputframe { name \"r\" } }")),
+              "");
+}
+
+TEST(PlanCheck, WarnsOfGapsBesideAnEqualizerOfOtherParts) {
+    const std::string found =
+        "f:2:1: warning: nothing draws 10 % of what is shown, in viewport [ 0.4 0 0.1 1 ]: it is "
+        "background\n";
     EXPECT_EQ(foundIn(halves("viewport [ 0 0 .4 1 ]",
                              "viewport [ .5 0 .5 1 ] load_equalizer { mode 2D }")),
-              "");
+              found);
+    EXPECT_EQ(foundIn(halves("viewport [ 0 0 .4 1 ]",
+                             "viewport [ .5 0 .5 1 ] load_equalizer {} compound {} compound {}")),
+              found);
+    EXPECT_EQ(foundIn(withCompounds("compound { view_equalizer {} compound { channel ( segment 0 "
+                                    "view \"v\" ) compound { viewport [ 0 0 .9 1 ] } } }")),
+              "f:2:30: warning: nothing draws 10 % of what is shown, in viewport [ 0.9 0 0.1 1 ]: "
+              "it is background\n");
 }
 
 TEST(PlanCheck, WarnsOfAConfigurationThatShowsNothing) {

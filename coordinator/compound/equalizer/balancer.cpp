@@ -39,7 +39,7 @@ std::unique_ptr<Balancer> makeBalancer(const config::Equalizer& equalizer,
         case Kind::Dfr:
             return std::make_unique<Dfr>(written, position, work);
         case Kind::Tile:
-            return std::make_unique<Tiles>(equalizer, written, position, work);
+            return std::make_unique<Tiles>(written, position, work);
         case Kind::View:
             return std::make_unique<View>(position, work);
         case Kind::Monitor:

@@ -58,7 +58,12 @@ void Dfr::apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) {
     turn.live[position_]->zoom = turn.facts.isComplete ? written_ : written_ * zoom_;
 }
 
-void Dfr::switchOff(Turn& turn) { turn.live[position_]->zoom = written_; }
+void Dfr::switchOff(Turn& turn) {
+    turn.live[position_]->zoom = written_;
+    zoom_ = 1;
+    milliseconds_ = 0;
+    framesPerSecond_ = 0;
+}
 
 void Dfr::record(const PlannedFrame& frame, const FrameTimes& times) {
     if (frame.isComplete)

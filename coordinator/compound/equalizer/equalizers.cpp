@@ -100,6 +100,9 @@ void Equalizers::apply(config::Configuration& live, const FrameFacts& facts) {
             entry.balancer->apply(turn, entry.settings, entry.isFrozen);
     PlannedFrame frame{facts.frameNumber, {}, facts.isComplete};
     for (const config::Compound& root : live.compounds) addParts(root, false, frame.parts);
+    for (std::size_t p = 0; p < frame.parts.size(); ++p)
+        if (const config::ResolvedCompound* const compound = turn.resolved(p))
+            frame.parts[p].channel = compound->channel;
     if (!planned_.empty() && planned_.back().number >= frame.number) {
         planned_.clear();
         recorded_.reset();

@@ -32,9 +32,7 @@ void Framerate::apply(Turn& turn, const config::Equalizer&, bool isFrozen) {
 void Framerate::record(const PlannedFrame& frame, const FrameTimes& times) {
     if (isFrozen_)
         return;
-    double longest = 0;
-    for (const std::size_t child : children_)
-        longest = std::max(longest, work_.longest(child, frame, times));
+    const double longest = work_.longest(position_, frame, times);
     if (!(longest > 0))
         return;
     times_.push_back(longest);

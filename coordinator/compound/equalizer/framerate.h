@@ -12,8 +12,9 @@ namespace eyrie::equalizer {
 /// from what those of a period took, and a twentieth to spare. Without it frames come in
 /// bursts, as its children happen to end together. The framerate equalizer of Equalizer.
 ///
-/// A frame's time is that of what took longest; n children that take turns make n frames in it. A
-/// destination that takes longer to assemble, as far as its renderer tells, holds all up by that.
+/// A frame's time is that of the pipe that took longest; n children that take turns make n frames
+/// in it. A destination that takes longer to assemble, as far as its renderer tells, holds all up
+/// by that.
 class Framerate final : public Balancer {
 public:
     Framerate(std::size_t position, const Work& work);

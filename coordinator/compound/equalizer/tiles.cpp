@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/compound/equalizer/tiles.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace eyrie::equalizer {
@@ -13,15 +15,22 @@ void set(std::vector<config::Tiles>& queues, const std::string& name,
         queues.push_back(*tiles);
 }
 
+/// What a compound reads back has background around its own tiles, which would cover others'.
+void addTakers(const config::Compound& compound, std::size_t position, const Work& work,
+               std::vector<std::size_t>& takers) {
+    if (work.at(position).drawsItself)
+        takers.push_back(position);
+    const std::vector<std::size_t>& children = work.at(position).children;
+    for (std::size_t i = 0; i < children.size(); ++i)
+        if (work.at(children[i]).drawsItself || compound.children[i].outputFrames.empty())
+            addTakers(compound.children[i], children[i], work, takers);
+}
+
 }  // namespace
 
-Tiles::Tiles(const config::Equalizer& equalizer, const config::Compound& written,
-             std::size_t position, const Work& work)
-    : position_(position),
-      work_(work),
-      name_(!equalizer.name.empty() ? equalizer.name
-            : !written.name.empty() ? "queue." + written.name
-                                    : fmt::format("queue.{}", position)) {
+Tiles::Tiles(const config::Compound& written, std::size_t position, const Work& work)
+    : position_(position), work_(work), name_(fmt::format("tile_equalizer.{}", position)) {
+    addTakers(written, position, work, takers_);
     for (const config::Compound& child : written.children)
         written_.push_back({child.viewport, child.range, false});
 }
@@ -35,6 +44,8 @@ void Tiles::apply(Turn& turn, const config::Equalizer& settings, bool) {
         tiles.size = settings.tileSize;
     set(turn, tiles);
     for (const std::size_t child : work_.at(position_).children) {
+        if (!hasTakers(child))
+            continue;
         turn.live[child]->viewport = {};
         turn.live[child]->range = {};
     }
@@ -55,9 +66,13 @@ void Tiles::switchOff(Turn& turn) {
 
 void Tiles::set(Turn& turn, const std::optional<config::Tiles>& tiles) const {
     equalizer::set(turn.live[position_]->outputTiles, name_, tiles);
-    for (std::size_t p = position_; p < work_.at(position_).end; ++p)
-        if (work_.at(p).drawsItself)
-            equalizer::set(turn.live[p]->inputTiles, name_, tiles);
+    for (const std::size_t taker : takers_)
+        equalizer::set(turn.live[taker]->inputTiles, name_, tiles);
+}
+
+bool Tiles::hasTakers(std::size_t child) const {
+    return std::ranges::any_of(
+        takers_, [&](std::size_t taker) { return taker >= child && taker < work_.at(child).end; });
 }
 
 }  // namespace eyrie::equalizer

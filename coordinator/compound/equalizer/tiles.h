@@ -9,12 +9,12 @@ namespace eyrie::equalizer {
 
 /// Has the drawing children of a compound fetch tiles of its picture, or chunks of its range, from
 /// one queue (TileQueue) in place of drawing a part each: while it is on, the compound has
-/// outputtiles and they have inputtiles of its name. Each has all of the
-/// picture then. The tile equalizer of Equalizer.
+/// outputtiles, and those that draw below it have inputtiles, of a name that no other equalizer's
+/// queue has. Each has all of the picture then. What is drawn for an output frame of a compound
+/// between stays as it is written. The tile equalizer of Equalizer.
 class Tiles final : public Balancer {
 public:
-    Tiles(const config::Equalizer& equalizer, const config::Compound& written, std::size_t position,
-          const Work& work);
+    Tiles(const config::Compound& written, std::size_t position, const Work& work);
 
     void apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) override;
     void switchOff(Turn& turn) override;
@@ -24,10 +24,12 @@ public:
 
 private:
     void set(Turn& turn, const std::optional<config::Tiles>& tiles) const;
+    bool hasTakers(std::size_t child) const;
 
     const std::size_t position_;
     const Work& work_;
     const std::string name_;
+    std::vector<std::size_t> takers_;
     std::vector<Part> written_;  ///< of the children
     bool isOn_ = false;
 };

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "coordinator/config/pixels.h"
 
@@ -88,10 +90,17 @@ std::optional<double> Work::cost(std::size_t position, const PlannedFrame& frame
 
 double Work::longest(std::size_t position, const PlannedFrame& frame,
                      const FrameTimes& times) const {
+    std::map<std::pair<std::size_t, std::size_t>, double> sums;  // by node and pipe
     double longest = 0;
-    for (std::size_t i = position; i < compounds_[position].end && i < times.compounds.size(); ++i)
-        if (compounds_[i].drawsItself && !frame.parts[i].isEmpty)
-            longest = std::max(longest, costOf(times.compounds[i]).value_or(0));
+    for (std::size_t i = position; i < compounds_[position].end && i < times.compounds.size();
+         ++i) {
+        const Part& part = frame.parts[i];
+        if (!compounds_[i].drawsItself || part.isEmpty || !part.channel)
+            continue;
+        double& sum = sums[{part.channel->node, part.channel->pipe}];
+        sum += costOf(times.compounds[i]).value_or(0);
+        longest = std::max(longest, sum);
+    }
     return longest;
 }
 

@@ -16,6 +16,7 @@ struct Part {
     fabric::Range range;
     bool isEmpty = false;  ///< it drew nothing, or nothing of its parent's was drawn
     fabric::Vec2 zoom{1, 1};
+    std::optional<config::ChannelIndex> channel = {};
 };
 
 /// A frame that was planned: its parts, by position as in Work.
@@ -46,7 +47,8 @@ public:
     std::optional<double> cost(std::size_t position, const PlannedFrame& frame,
                                const FrameTimes& times) const;
 
-    /// What the compound in the tree that took longest took; 0 where nothing has a time.
+    /// What the pipe that took longest took for the tree: what compounds have on one goes on one
+    /// after the other. 0 where nothing has a time.
     double longest(std::size_t position, const PlannedFrame& frame, const FrameTimes& times) const;
 
     /// What of the tree's own picture was covered; of no size when nothing.
