@@ -32,7 +32,7 @@ std::string_view textOf(std::string_view line) {
 }
 
 /// Of what is drawn. Animations, bones, lines and the like are not, nor what nobody asked for; what
-/// an STL lacks at its end its caveat tells.
+/// STL and OFF lack at their ends their caveats tell.
 bool tellsOfALoss(std::string_view text) {
     constexpr std::array kLosses = {"dropped",
                                     "kipping",
@@ -48,8 +48,7 @@ bool tellsOfALoss(std::string_view text) {
                                     "unsupported boolean",
                                     "unsupported primitive",
                                     "did not encounter",
-                                    "nexpected EOF",
-                                    "in the header is incorrect"};
+                                    "nexpected EOF"};
     constexpr std::array kOthers = {
         "nimation", "bone",   "Bone", "umbNail",     "OptimizeMeshes",      "property", "Property",
         "settings", "Weight", "TCB",  "IfcPolyline", "lines with the same", "endsolid"};

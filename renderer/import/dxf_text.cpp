@@ -17,8 +17,8 @@
 namespace eyrie::import {
 namespace {
 
-/// Of one INSERT; a few numbers may ask for a thousand million.
-constexpr double kMostCopies = 4096;
+/// Of all that a file inserts in rows and columns; a few numbers may ask for a thousand million.
+constexpr double kMostCopies = 65536;
 
 /// Without the line's end, and blanks before it.
 std::string_view lineAt(std::string_view text, std::size_t& at) {
@@ -118,12 +118,30 @@ struct Insert {
                    record.number(230, 1) < 0) {}
 
     bool isRepeated() const { return columns * rows > 1; }
-    bool isMisplaced() const { return isTurned || columns * rows > kMostCopies; }
 
     std::string_view block;
     glm::dvec3 place, scale;
     double columns, rows, columnStep, rowStep;
     bool isTurned;
+};
+
+/// Whether blocks are put as the file has them, one after the other.
+class Placing {
+public:
+    bool isRight(const Insert& insert) {
+        if (insert.isTurned)
+            return false;
+        if (!insert.isRepeated())
+            return true;
+        const double copies = insert.columns * insert.rows;
+        if (!(copies_ + copies <= kMostCopies))
+            return false;
+        copies_ += copies;
+        return true;
+    }
+
+private:
+    double copies_ = 0;
 };
 
 /// Where Assimp's scale * (point + place) - base is the format's place + scale * (point - base).
@@ -135,9 +153,8 @@ std::string insertForAssimp(const Insert& insert, const glm::dvec3& offset,
                        insert.scale.z);
 }
 
+/// In all its rows and columns.
 std::string insertsForAssimp(const Insert& insert, const glm::dvec3& base) {
-    if (insert.isMisplaced())
-        return insertForAssimp(insert, glm::dvec3(0), base);
     std::string text;
     for (int row = 0; row < insert.rows; ++row)
         for (int column = 0; column < insert.columns; ++column)
@@ -174,28 +191,34 @@ bool isLostSurface(const Record& record) {
 std::optional<std::string> dxfForAssimp(std::string_view dxf) {
     const std::map<std::string_view, glm::dvec3> bases = basesOf(dxf);
     MendedText mended(dxf);
+    Placing placing;
     forEachRecord(dxf, [&](const Record& record) {
         if (!isRead(record.kind))
             mended.replace(record.begin, record.text.size(), "");
         if (record.kind != "INSERT" || record.section != "ENTITIES")
             return;
         const Insert insert(record);
+        const bool isRight = placing.isRight(insert);
         const auto block = bases.find(insert.block);
         const glm::dvec3 base = block == bases.end() ? glm::dvec3(0) : block->second;
         const bool isPlain = base == glm::dvec3(0) && insert.scale == glm::dvec3(1) &&
                              !insert.isTurned && !insert.isRepeated();
-        if (!isPlain && insert.scale.x * insert.scale.y * insert.scale.z != 0)
-            mended.replace(record.begin, record.text.size(), insertsForAssimp(insert, base));
+        if (isPlain || insert.scale.x * insert.scale.y * insert.scale.z == 0)
+            return;
+        mended.replace(record.begin, record.text.size(),
+                       isRight ? insertsForAssimp(insert, base)
+                               : insertForAssimp(insert, glm::dvec3(0), base));
     });
     return mended.finish();
 }
 
 std::vector<std::string> dxfCaveats(std::string_view dxf) {
     std::uint64_t misplaced = 0, surfaces = 0;
+    Placing placing;
     std::set<std::string_view> kinds;
     forEachRecord(dxf, [&](const Record& record) {
         if (record.kind == "INSERT" && record.section == "ENTITIES")
-            misplaced += Insert(record).isMisplaced() ? 1 : 0;
+            misplaced += placing.isRight(Insert(record)) ? 0 : 1;
         if (!isLostSurface(record))
             return;
         ++surfaces;
@@ -205,7 +228,7 @@ std::vector<std::string> dxfCaveats(std::string_view dxf) {
     if (misplaced > 0)
         caveats.push_back(
             fmt::format("{} blocks are not put as the file has them: turned, in a plane of their "
-                        "own or more than {} times; explode them before export",
+                        "own or more than {} times in all; explode them before export",
                         misplaced, kMostCopies));
     if (surfaces > 0)
         caveats.push_back(

@@ -108,9 +108,9 @@ std::vector<std::string> offCaveats(std::string_view off) {
         return {};
     for (std::uint64_t i = 0; i < lines.vertices() && !lines.next().empty(); ++i) {
     }
-    std::uint64_t coloured = 0, large = 0, more = 0;
+    std::uint64_t faces = 0, coloured = 0, large = 0, more = 0;
     std::string_view line;
-    for (std::uint64_t i = 0; i < lines.faces() && !(line = lines.next()).empty(); ++i) {
+    for (; faces < lines.faces() && !(line = lines.next()).empty(); ++faces) {
         std::uint64_t corners = 0;
         const std::string_view word = takeWord(line);
         std::from_chars(word.data(), word.data() + word.size(), corners);
@@ -119,6 +119,11 @@ std::vector<std::string> offCaveats(std::string_view off) {
     }
     while (!lines.next().empty()) ++more;
     std::vector<std::string> caveats;
+    if (faces < lines.faces())
+        caveats.push_back(
+            fmt::format("its header counts {} faces, and it has {}, as files do that were cut off: "
+                        "copy or export it again if anything is missing",
+                        lines.faces(), faces));
     if (coloured > 0)
         caveats.push_back(
             fmt::format("left out the colours of {} faces: give them to vertices", coloured));

@@ -436,7 +436,7 @@ TEST(WrittenFormats, SayThatTheyWereCutOff) {
     EXPECT_THAT(notesOf("t.ac", ac.substr(0, ac.rfind("F 0x10"))),
                 testing::Contains(HasSubstr("Unexpected EOF")));
     EXPECT_THAT(notesOf("t.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
-                testing::Contains(HasSubstr("faces in the header is incorrect")));
+                testing::Contains(HasSubstr("its header counts 2 faces, and it has 1")));
 }
 
 TEST(WrittenFormats, OfAmfWithoutColoursIsPlain) {

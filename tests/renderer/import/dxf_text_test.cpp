@@ -105,6 +105,15 @@ TEST(DxfCaveats, CountBlocksThatAreNotPutAsTheFileHasThem) {
     }
 }
 
+/// Sixteen of these are as many copies as there may be.
+TEST(DxfCaveats, CountBlocksThatAFileRepeatsTooOften) {
+    std::string inserts;
+    for (int i = 0; i < 18; ++i) inserts += "0\nINSERT\n2\nB\n70\n64\n71\n64\n";
+    const std::string dxf = dxfOf(0, "", inserts);
+    EXPECT_THAT(dxfCaveats(dxf), ElementsAre(HasSubstr("2 blocks are not put")));
+    EXPECT_LT(dxfForAssimp(dxf)->size(), std::size_t{16} << 20);
+}
+
 TEST(DxfCaveats, NameTheSurfacesThatAreNotRead) {
     const std::string entities =
         fmt::format("{}{}", kFace,
