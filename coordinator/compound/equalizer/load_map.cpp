@@ -43,10 +43,10 @@ struct LoadMap::Overlap {
     Cells rows;
 };
 
-LoadMap::LoadMap(int columns, int rows) : columns_(columns), rows_(rows) { forget(); }
+LoadMap::LoadMap(int columns, int rows) : columns_(columns), rows_(rows) {}
 
-void LoadMap::forget() {
-    densities_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 1.0);
+double LoadMap::density(int row, int column) const {
+    return densities_.empty() ? 1.0 : densities_[static_cast<std::size_t>(row * columns_ + column)];
 }
 
 LoadMap::Overlap LoadMap::overlap(const Area& area) const {
@@ -68,7 +68,8 @@ void LoadMap::record(std::span<const Measured> parts) {
     }
     const double forgotten =
         std::clamp(kForgottenBeyond * (wrong - kNoise), kLeastForgotten, kMostForgotten);
-    std::vector<double> densities(densities_.size(), 0.0);
+    std::vector<double> densities(
+        static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0.0);
     for (std::size_t i = 0; i < parts.size(); ++i) {
         Measured part = parts[i];
         const double off = part.load - expected[i];
@@ -97,7 +98,7 @@ void LoadMap::add(const Measured& part, double forgotten, std::vector<double>& d
             const auto cell = static_cast<std::size_t>(row * columns_ + column);
             const double covered =
                 height * lengthIn(column, columns_, region.x, region.xEnd) / cellSize;
-            densities[cell] += covered * (kept * densities_[cell] + fresh);
+            densities[cell] += covered * (kept * density(row, column) + fresh);
         }
     }
 }
@@ -110,8 +111,7 @@ std::vector<double> LoadMap::profile(const Area& area, Axis axis) const {
         const double height = lengthIn(row, rows_, area.y, area.yEnd);
         for (int column = columns.first; column < columns.past; ++column)
             loads[static_cast<std::size_t>((axis == Axis::X ? column : row) - along.first)] +=
-                height * lengthIn(column, columns_, area.x, area.xEnd) *
-                densities_[static_cast<std::size_t>(row * columns_ + column)];
+                height * lengthIn(column, columns_, area.x, area.xEnd) * density(row, column);
     }
     return loads;
 }

@@ -20,7 +20,7 @@ namespace eyrie::equalizer {
 /// alone throws the cuts from one side of it to the other and back.
 class LoadMap {
 public:
-    /// Of [0, 1] x [0, 1] in cells within which load is even.
+    /// Of [0, 1] x [0, 1] in cells within which load is even: at first all of it.
     LoadMap(int columns, int rows);
 
     struct Measured {
@@ -30,9 +30,6 @@ public:
     };
     /// `parts` cover the whole once, but for what cost nothing.
     void record(std::span<const Measured> parts);
-
-    /// Spread evenly.
-    void forget();
 
     double load(const Area& area) const;
 
@@ -46,9 +43,11 @@ private:
     void add(const Measured& part, double forgotten, std::vector<double>& densities) const;
     std::vector<double> profile(const Area& area, Axis axis) const;
 
+    double density(int row, int column) const;
+
     int columns_;
     int rows_;
-    std::vector<double> densities_;  ///< by rows; load over area
+    std::vector<double> densities_;  ///< by rows; load over area; none: 1 everywhere
 };
 
 }  // namespace eyrie::equalizer
