@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include <absl/status/statusor.h>
 #include <assimp/DefaultIOSystem.h>
@@ -59,6 +60,13 @@ public:
     }
 };
 
+/// For Assimp, which deletes it.
+Assimp::IOStream* streamOf(std::string_view text) {
+    auto bytes = std::make_unique<std::uint8_t[]>(text.size());
+    std::ranges::copy(text, bytes.get());
+    return std::make_unique<Assimp::MemoryIOStream>(bytes.release(), text.size(), true).release();
+}
+
 class MendedFiles : public Assimp::DefaultIOSystem {
 public:
     Assimp::IOStream* Open(const char* name, const char* mode) override {
@@ -69,12 +77,7 @@ public:
         const auto read = file->bytes();
         const std::string_view source(reinterpret_cast<const char*>(read.data()), read.size());
         const std::optional<std::string> text = mended(source, *format);
-        if (!text)
-            return DefaultIOSystem::Open(name, mode);
-        auto bytes = std::make_unique<std::uint8_t[]>(text->size());
-        std::ranges::copy(*text, bytes.get());
-        return std::make_unique<Assimp::MemoryIOStream>(bytes.release(), text->size(), true)
-            .release();  // which Assimp deletes
+        return text ? streamOf(*text) : DefaultIOSystem::Open(name, mode);
     }
 };
 
@@ -84,11 +87,20 @@ public:
     explicit ObjFiles(const std::string& path) : path_(path) {}
 
     Assimp::IOStream* Open(const char* name, const char* mode) override {
-        const std::string found = name == path_ ? path_ : findTexture(asNamed(name), path_);
-        return MendedFiles::Open(found.empty() ? name : found.c_str(), mode);
+        if (name == path_)
+            return MendedFiles::Open(name, mode);
+        const std::string found = findTexture(asNamed(name), path_);
+        const std::string file = found.empty() ? name : found;
+        std::error_code error;
+        const std::uintmax_t size = std::filesystem::file_size(file, error);
+        return !error && size < kLeastMaterialBytes ? streamOf("")
+                                                    : MendedFiles::Open(file.c_str(), mode);
     }
 
 private:
+    /// "newmtl a"; Assimp takes an empty file, and refuses an OBJ whose material file has less.
+    static constexpr std::uintmax_t kLeastMaterialBytes = 8;
+
     /// As the OBJ names it: Assimp puts the OBJ's folder before that, and leaves blanks after it.
     std::string asNamed(std::string_view name) const {
         std::string folder = std::filesystem::path(path_).parent_path().string();

@@ -344,6 +344,17 @@ fabric::Rgba colourWithLibrary(const test::TemporaryFolder& folder, const std::s
     return mesh.ok() ? mesh->colours.at(0) : fabric::Rgba{};
 }
 
+TEST(MeshReader, TakesMaterialFilesWithNextToNothingInThem) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("a.obj"), "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    for (const char* content : {"", "\n", "# none\n", "# nothing\n"}) {
+        test::writeFile(folder.file("a.mtl"), content);
+        const auto mesh = readMesh(folder.file("a.obj"));
+        ASSERT_TRUE(mesh.ok()) << mesh.status();
+        EXPECT_EQ(mesh->triangles.size(), 1U);
+    }
+}
+
 TEST(MeshReader, FindsMaterialFilesAsItFindsTextures) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("a model.mtl"), test::kMtl);
