@@ -3,6 +3,7 @@ import { describe, expect, it, vi } from "vitest";
 import type { Camera } from "./camera/camera";
 import { State } from "./state";
 import { Steering } from "./steering";
+import type { WalkerEvents } from "./walker";
 
 vi.mock("./camera/controls", () => ({ Controls: class {} }));
 
@@ -14,16 +15,17 @@ const at = (x: number, z: number): Camera => ({
 });
 
 describe("Steering", () => {
-  const make = (): { steering: Steering; state: State } => {
+  const known: WalkerEvents["ask"] = (from, to, samples, answered) => {
+    answered({ from, to, heights: Array<number>(samples).fill(0) });
+    return true;
+  };
+  const make = (ask = known): { steering: Steering; state: State } => {
     const state = new State();
     const steering = new Steering({} as HTMLCanvasElement, state, {
       moved: () => {},
       changed: () => {},
       clicked: () => {},
-      ask: (from, to, samples, answered) => {
-        answered({ from, to, heights: Array<number>(samples).fill(0) });
-        return true;
-      },
+      ask,
       isNewest: () => true,
       canvasSize: () => ({ width: 640, height: 360 }),
     });
@@ -56,6 +58,21 @@ describe("Steering", () => {
       const z = underground ? 1.7 : 2;
       expect(steering.camera?.eye[2]).toBeCloseTo(z);
       expect(steering.camera?.target[2]).toBeCloseTo(z);
+    }
+  });
+
+  it("stays in a view or flight taken before a walk knew its ground", () => {
+    for (const leave of ["jumpTo", "moveAlong"] as const) {
+      let answer = (): void => {};
+      const { steering, state } = make((from, to, samples, answered) => {
+        answer = () => known(from, to, samples, answered);
+        return true;
+      });
+      steering.setWalking(true);
+      steering[leave](at(5, 90));
+      expect(state.walking.value).toBe(false);
+      answer();
+      expect(steering.camera).toEqual(at(5, 90));
     }
   });
 

@@ -170,13 +170,20 @@ export class Steering implements CameraHolder {
   jumpTo(camera: Camera, inputTime?: number): void {
     this.flown = null;
     this.staysUnderground = false;
+    this.callOffWalk();
     this.move(camera, inputTime);
   }
 
   /** To a camera of a flight, which may have been recorded walking: nothing lifts it. */
   moveAlong(camera: Camera): void {
     this.flown = camera;
+    this.callOffWalk();
     this.move(camera);
+  }
+
+  /** One that still asks for its ground would lead back to where it was to begin. */
+  private callOffWalk(): void {
+    if (!this.walker.stands) this.state.walking.set(false);
   }
 
   goHome(inputTime?: number): void {

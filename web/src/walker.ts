@@ -78,11 +78,14 @@ export class Walker {
     });
   }
 
+  /** Whether the walk has begun: not before the ground is known. */
+  get stands(): boolean {
+    return this.camera !== undefined;
+  }
+
   /** Whether the eye is where the walk has put it: a turned head walks on, a moved one does not. */
   isAt(camera: Camera): boolean {
-    return (
-      this.camera === undefined || this.camera.eye.every((value, i) => value === camera.eye[i])
-    );
+    return !this.camera || this.camera.eye.every((value, i) => value === camera.eye[i]);
   }
 
   turned(camera: Camera): void {
