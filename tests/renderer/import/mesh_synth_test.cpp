@@ -38,6 +38,20 @@ TEST_P(MeshSynth, HasAboutTheTrianglesAskedFor) {
     EXPECT_NEAR(made, std::max(asked, 8.0), 3 * std::sqrt(asked) + 8);
 }
 
+/// In memory of its own, so that it is rounded whatever the compiler makes of the way back.
+bool isFloatsValue(double value) {
+    const volatile auto rounded = static_cast<float>(value);
+    return rounded == value;
+}
+
+void expectFloats(const TriangleMesh& mesh) {
+    for (const fabric::Vec3& position : mesh.positions)
+        for (int axis = 0; axis < 3; ++axis)
+            ASSERT_TRUE(isFloatsValue(position[axis])) << position[axis];
+}
+
+TEST_P(MeshSynth, HasFloatsAsCoordinates) { expectFloats(synthesizeMesh(GetParam(), 3)); }
+
 INSTANTIATE_TEST_SUITE_P(Sizes, MeshSynth, testing::Values(0, 8, 32, 1000, 20000));
 
 TEST(MeshSynth, IsTheSameForASeedAndAnotherForAnother) {
@@ -112,9 +126,17 @@ TEST(Subdivide, CutsEachTriangleIntoFourAndKeepsTheSurface) {
     EXPECT_EQ(subdivide(source, 0)->triangles, source.triangles);
 }
 
+TEST(Subdivide, HasFloatsAsCoordinates) { expectFloats(*subdivide(synthesizeMesh(200, 7), 2)); }
+
 TEST(Subdivide, RefusesToMakeTooMany) {
     const auto huge = subdivide(synthesizeMesh(200, 7), 12);
     EXPECT_EQ(huge.status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST(Displace, HasFloatsAsCoordinates) {
+    TriangleMesh mesh = synthesizeMesh(5000, 7);
+    displace(mesh, 0.01, 3);
+    expectFloats(mesh);
 }
 
 TEST(Displace, MovesPointsButNotFar) {
