@@ -86,11 +86,11 @@ double TerrainError::ofTriangles(const terrain::TileChoice& tile, double pixels,
     lookedAt_ += isLimit ? 0 : 1;
     const CornersByError corners = drawnCorners(index_, tile, *paging_.tile(tile.id));
     double worst = std::max(enough, ofOutlines);
-    for (std::size_t share = 1; share < corners.size(); ++share) {
+    for (std::size_t share = 0; share < corners.size(); ++share) {
         const lod::VerticalError error(request_.view, errorMetres(record, share));
         for (std::size_t k = 0; k + 2 < corners[share].size(); k += 3) {
             const std::span<const Vec3, 3> triangle(corners[share].data() + k, 3);
-            const double own = error.pixels(triangle);
+            const double own = error.pixels(triangle) + request_.view.roundingPixels(triangle);
             if (own > worst && !(hidden_ != nullptr && isHidden(boundsOf(triangle), [&] {
                                      return hidden_->coverOf(triangle, own);
                                  })))

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -22,33 +23,77 @@ using fabric::Mat4;
 using fabric::Vec2;
 using fabric::Vec3;
 
-/// The part of a box inside a frustum: nearest depth and widest tangent off the axis.
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// How far a corner is drawn from where it is, of its distance to the eye (docs/errors.md).
+constexpr double kCornerRounding = 9.0 / (1 << 24);
+/// To which OpenGL snaps window coordinates.
+constexpr double kSnappedPixels = 1.0 / 256;
+
+/// The part of a surface inside a frustum: nearest depth and widest tangent off the axis.
 struct VisiblePart {
-    double minDepth = std::numeric_limits<double>::infinity();
+    double minDepth = kInfinity;
     double maxTangentSquared = 0;
+
+    /// The extremes over a polygon and the frustum lie at corners of their intersection.
+    void add(Polygon polygon, const std::array<Plane, 4>& planes) {
+        for (const Plane& plane : planes) polygon = clip(polygon, plane);
+        for (const Vec3& p : polygon) {
+            minDepth = std::min(minDepth, p.z);
+            if (p.z > 0)
+                maxTangentSquared =
+                    std::max(maxTangentSquared, (p.x * p.x + p.y * p.y) / (p.z * p.z));
+        }
+    }
 };
 
-/// The extremes over the box and the frustum lie at corners of their intersection, and those lie
-/// on faces of the box (the eye itself is excluded by the caller).
+/// Those of a box lie on its faces (the eye itself is excluded by the caller).
 VisiblePart visiblePart(const Corners& corners, const Frustum& frustum) {
     VisiblePart part;
     const auto planes = sidePlanes(frustum);
     for (const auto& face : kFaces) {
         Polygon polygon;
         for (const std::size_t i : face) polygon.add(corners[i]);
-        for (const Plane& plane : planes) polygon = clip(polygon, plane);
-        for (const Vec3& p : polygon) {
-            part.minDepth = std::min(part.minDepth, p.z);
-            if (p.z > 0)
-                part.maxTangentSquared =
-                    std::max(part.maxTangentSquared, (p.x * p.x + p.y * p.y) / (p.z * p.z));
-        }
+        part.add(polygon, planes);
     }
     return part;
 }
 
+VisiblePart visiblePart(std::span<const Vec3, 3> corners, const Frustum& frustum) {
+    VisiblePart part;
+    Polygon polygon;
+    for (const Vec3& corner : corners) polygon.add(corner);
+    part.add(polygon, sidePlanes(frustum));
+    return part;
+}
+
+double farthest(std::span<const Vec3> viewPoints) {
+    double squared = 0;
+    for (const Vec3& p : viewPoints) squared = std::max(squared, glm::dot(p, p));
+    return std::sqrt(squared);
+}
+
 Frustum widened(const Frustum& f, const Vec2& tangent) {
     return {f.left - tangent.x, f.right + tangent.x, f.bottom - tangent.y, f.top + tangent.y};
+}
+
+/// In pixels, how far what is seen of a surface is from where corners at `corners` have it, that
+/// are drawn up to `off` beside them: as screenSpaceErrorPixels(), but nothing that is drawn lies
+/// beyond.
+template <typename SurfaceCorners>
+double displacementPixels(const View& view, const SurfaceCorners& corners, double off) {
+    for (const double marginPixels : {16.0, 256.0, 4096.0, 65536.0}) {
+        const VisiblePart part =
+            visiblePart(corners, widened(view.frustum, marginPixels / view.focalPixels));
+        if (part.minDepth == kInfinity)
+            return 0;
+        if (part.minDepth <= off)
+            return kInfinity;
+        const double bound = off * view.greatestFocalPixels() *
+                             std::sqrt(1 + part.maxTangentSquared) / (part.minDepth - off);
+        if (bound <= marginPixels)
+            return bound > kSnappedPixels ? bound : 0;
+    }
+    return kInfinity;
 }
 
 /// Exactly the ends at 0 and 1.
@@ -135,6 +180,7 @@ ObjectView::ObjectView(const View& view, const Mat4& worldFromObject)
     relativeFromObject[3] -= fabric::Vec4(view.eye, 0.0);
     viewFromObject_ = Mat4(view.viewFromWorldRotation) * relativeFromObject;
     objectFromView_ = glm::inverse(viewFromObject_);
+    leastMetresPerObjectUnit_ = 1 / largestStretch(Mat3(objectFromView_));
 }
 
 bool ObjectView::isVisible(const Box& bounds, const Frustum& frustum) const {
@@ -151,8 +197,8 @@ bool ObjectView::isVisible(const Box& bounds, const Frustum& frustum) const {
 
 fabric::PixelViewport ObjectView::coveredPixels(const Box& bounds) const {
     const fabric::PixelViewport whole{0, 0, view_.width, view_.height};
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    Frustum extent{kNone, -kNone, kNone, -kNone};  // of the box, on the plane at unit distance
+    Frustum extent{kInfinity, -kInfinity, kInfinity,
+                   -kInfinity};  // of the box, on the plane at unit distance
     for (const Vec3& p : viewCorners(bounds, viewFromObject_)) {
         if (p.z < fabric::kNearMetres)
             return whole;
@@ -179,22 +225,57 @@ double ObjectView::screenSpaceErrorPixels(double errorMetres, const Box& bounds)
     const Box grown = bounds.grownBy(errorMetres);
     const Corners corners = viewCorners(grown, viewFromObject_);
     if (grown.contains(Vec3(objectFromView_[3])))
-        return std::numeric_limits<double>::infinity();
+        return kInfinity;
     // A visible point may be displaced out of the frustum, so the bound is taken over a frustum
     // wider by a margin; it holds once it is no larger than that margin (docs/errors.md).
     for (const double marginPixels : {16.0, 256.0, 4096.0, 65536.0}) {
         const VisiblePart part =
             visiblePart(corners, widened(view_.frustum, marginPixels / view_.focalPixels));
-        if (part.minDepth == std::numeric_limits<double>::infinity())
+        if (part.minDepth == kInfinity)
             return 0;
         if (part.minDepth <= 0)
-            return std::numeric_limits<double>::infinity();
+            return kInfinity;
         const double bound = errorMetres * metresPerObjectUnit_ * view_.greatestFocalPixels() *
                              std::sqrt(1 + part.maxTangentSquared) / part.minDepth;
         if (bound <= marginPixels)
             return bound;
     }
-    return std::numeric_limits<double>::infinity();
+    return kInfinity;
+}
+
+/// Quick, and so of nearly all that is not right before the eye.
+bool ObjectView::isRoundedUnseen(const Box& reach, const Box& bounds) const {
+    const Vec3 eye(objectFromView_[3]);
+    const Vec3 near = glm::max(glm::max(bounds.min - eye, eye - bounds.max), Vec3(0.0));
+    const Vec3 far = glm::max(glm::abs(reach.min - eye), glm::abs(reach.max - eye));
+    const Frustum& f = view_.frustum;
+    const double widestSquared = 1 + std::max(f.left * f.left, f.right * f.right) +
+                                 std::max(f.bottom * f.bottom, f.top * f.top);
+    const double off = kCornerRounding * glm::length(far) * metresPerObjectUnit_;
+    return 2 * off * view_.greatestFocalPixels() * widestSquared <=
+           kSnappedPixels * glm::length(near) * leastMetresPerObjectUnit_;
+}
+
+double ObjectView::roundingPixels(const Box& reach, const Box& bounds) const {
+    if (isRoundedUnseen(reach, bounds))
+        return 0;
+    if (bounds.contains(Vec3(objectFromView_[3])))
+        return isVisible(bounds) ? kInfinity : 0;
+    const double off = kCornerRounding * farthest(viewCorners(reach, viewFromObject_));
+    return displacementPixels(view_, viewCorners(bounds, viewFromObject_), off);
+}
+
+double ObjectView::roundingPixels(std::span<const Vec3, 3> triangle) const {
+    Box bounds;
+    std::array<Vec3, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+        bounds.grow(triangle[i]);
+        corners[i] = viewPoint(triangle[i], viewFromObject_);
+    }
+    if (isRoundedUnseen(bounds, bounds))
+        return 0;
+    return displacementPixels(view_, std::span<const Vec3, 3>(corners),
+                              kCornerRounding * farthest(corners));
 }
 
 }  // namespace eyrie::lod

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "fabric/box.h"
 #include "fabric/camera.h"
@@ -88,15 +89,27 @@ public:
     /// VerticalError is narrower. Proof: docs/errors.md#projection.
     double screenSpaceErrorPixels(double errorMetres, const fabric::Box& bounds) const;
 
+    /// What single precision makes of a surface, in pixels: an upper bound on how far what is seen
+    /// of it in `bounds` is from where its corners say. `reach` holds all corners of the triangles
+    /// that are drawn there: from near by, the rounding of one far away is many pixels. 0 where it
+    /// is less than OpenGL snaps corners to; infinite when the eye is in `bounds`.
+    /// Proof: docs/errors.md#corners-far-away.
+    double roundingPixels(const fabric::Box& reach, const fabric::Box& bounds) const;
+    /// The same of one triangle; infinite only where the surface itself reaches the eye.
+    double roundingPixels(std::span<const fabric::Vec3, 3> triangle) const;
+
     const View& view() const { return view_; }
     const fabric::Mat4& viewFromObject() const { return viewFromObject_; }
     const fabric::Mat4& objectFromView() const { return objectFromView_; }
 
 private:
+    bool isRoundedUnseen(const fabric::Box& reach, const fabric::Box& bounds) const;
+
     View view_;
     fabric::Mat4 viewFromObject_;
     fabric::Mat4 objectFromView_;
-    double metresPerObjectUnit_;  ///< the largest stretch of worldFromObject
+    double metresPerObjectUnit_;       ///< the largest stretch of worldFromObject
+    double leastMetresPerObjectUnit_;  ///< the smallest
 };
 
 }  // namespace eyrie::lod

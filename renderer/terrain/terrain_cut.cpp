@@ -67,9 +67,15 @@ private:
 
     double over(const TileId& part) const {
         const fabric::Box bounds = boundsOf(part);
-        return blursOutline(part)
-                   ? view_.screenSpaceErrorPixels(record_.greatestErrorMetres(), bounds)
-                   : lod::VerticalError(view_, errorMetres(part)).pixels(bounds);
+        const double ofSource =
+            blursOutline(part) ? view_.screenSpaceErrorPixels(record_.greatestErrorMetres(), bounds)
+                               : lod::VerticalError(view_, errorMetres(part)).pixels(bounds);
+        return ofSource + ofRounding(bounds);
+    }
+
+    /// Triangles in a part may be as large as the tile.
+    double ofRounding(const fabric::Box& part) const {
+        return record_.triangles == 0 ? 0 : view_.roundingPixels(index_.bounds(tile_), part);
     }
 
     double outlinesOver(const TileId& part, int levelsDown) const {
@@ -138,8 +144,8 @@ private:
 
 void refine(const EytIndex& index, const lod::ObjectView& view, double tauPixels,
             const TileId& tile, Refinement& refinement) {
-    if (tile.level == 0 || index.tile(tile).greatestErrorMetres() == 0 ||
-        !view.isVisible(index.bounds(tile)) || !TileError(index, view, tile).exceeds(tauPixels))
+    if (tile.level == 0 || !view.isVisible(index.bounds(tile)) ||
+        !TileError(index, view, tile).exceeds(tauPixels))
         return;
     refinement.split(tile);
     refinement.forEachChild(

@@ -193,6 +193,31 @@ TEST_F(TerrainTruth, HoldsBetweenSpiresAndVoids) {
                     cameras.make(static_cast<TerrainCameras::Kind>(kind)), 640, 360);
 }
 
+/// Two triangles as wide as the data would be exact, and are drawn in single precision: what a
+/// corner 100 km away is rounded by is pixels at one's feet.
+TEST_F(TerrainTruth, HoldsRightAboveAWidePlain) {
+    terrain::HeightGrid grid{.columns = 1025,
+                             .rows = 1025,
+                             .heights = std::vector<float>(1025 * 1025, 0.0F),
+                             .perColumn = {97, 0},
+                             .perRow = {0, 97}};
+    const std::string dem = folder_.path("plain.tif");
+    ASSERT_TRUE(import::writeGeoTiff(grid, dem).ok());
+    ASSERT_NO_FATAL_FAILURE(open(dem, dem));
+    for (const double height : {2.0, 0.5, 0.1}) {
+        Camera camera;
+        camera.eye = {bounds_.centre().x + 11, bounds_.min.y + 0.3 * bounds_.size().y, height};
+        camera.target = camera.eye + fabric::Vec3(0.3, 1, -0.1);
+        const auto kept = promise_->hold(camera, kTauPixels, 640, 360);
+        ASSERT_TRUE(kept.ok()) << kept.status();
+        EXPECT_GT(kept->promisedPixels, 0) << height;
+        EXPECT_LT(kept->promisedPixels, 2 / height) << height;
+        EXPECT_LE(kept->measuredPixels, kept->promisedPixels + TerrainPromise::kRasterPixels)
+            << height;
+        EXPECT_EQ(kept->measured.falseHits + kept->measured.misplaced, 0U) << height;
+    }
+}
+
 /// A plain, and broken ground behind a ridge across it; `change` is done to the heights.
 terrain::HeightGrid plainBeforeARidge(const std::function<void(std::vector<float>&)>& change,
                                       int side) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/lod/view.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -96,6 +98,104 @@ TEST(ScreenSpaceError, IsZeroForExactDataAndForWhatCannotBeSeen) {
     const ObjectView view(View(camera, 640, 480), Mat4(1.0));
     EXPECT_EQ(view.screenSpaceErrorPixels(0, Box{Vec3(-1), Vec3(1)}), 0);
     EXPECT_EQ(view.screenSpaceErrorPixels(0.5, Box{Vec3(-1, -30, -1), Vec3(1, -20, 1)}), 0);
+}
+
+/// A triangle that reaches 100 km away, or less, below or above an eye that is right before it.
+struct WideTriangle {
+    explicit WideTriangle(Dice& dice) {
+        const double reach = std::exp(dice.in(3, 12));
+        camera.eye = dice.vector(1e5);
+        camera.target = camera.eye + dice.direction();
+        camera.fovYDegrees = dice.in(5, 120);
+        above = std::exp(dice.in(-2, 3));
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double angle = dice.in(0, 1.5) + 2.1 * static_cast<double>(i);
+            corners[i] = camera.eye + Vec3(reach * std::cos(angle), reach * std::sin(angle),
+                                           -above + dice.in(-0.01, 0.01) * above);
+        }
+    }
+
+    /// Beside the foot of the eye by (x, y): `at` with the weights that are the place in `corners`.
+    Vec3 weightsOf(double x, double y) const {
+        const Vec2 p = Vec2(camera.eye) + Vec2(x, y);
+        const auto side = [&](const Vec3& a, const Vec3& b) {
+            return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+        };
+        const Vec3 weights(side(corners[1], corners[2]), side(corners[2], corners[0]),
+                           side(corners[0], corners[1]));
+        return weights / (weights.x + weights.y + weights.z);
+    }
+    static Vec3 at(const std::array<Vec3, 3>& corners, const Vec3& weights) {
+        return corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
+    }
+
+    Camera camera;
+    double above;
+    std::array<Vec3, 3> corners;
+};
+
+constexpr double kRounding = 9.0 / (1 << 24);  // docs/errors.md#corners-far-away
+
+RC_GTEST_PROP(RoundingPixels, OfATriangleAreNeverBelowWhatItsCornersMoveIt, (unsigned seed)) {
+    Dice dice(seed);
+    const WideTriangle triangle(dice);
+    RC_PRE(fabric::validate(triangle.camera).ok());
+    const ObjectView view(View(triangle.camera, 1280, 720), Mat4(1.0));
+    const double bound = view.roundingPixels(triangle.corners);
+    Box box;
+    for (const Vec3& corner : triangle.corners) box.grow(corner);
+    RC_ASSERT(view.roundingPixels(box, box) >= bound);
+    for (int i = 0; i < 200; ++i) {
+        std::array<Vec3, 3> moved = triangle.corners;
+        for (Vec3& corner : moved)
+            corner += dice.direction() * (kRounding * glm::distance(corner, triangle.camera.eye));
+        const double beside = 10 * triangle.above;
+        const Vec3 weights = triangle.weightsOf(dice.in(-beside, beside), dice.in(-beside, beside));
+        const auto p =
+            project(triangle.camera, 1280, 720, WideTriangle::at(triangle.corners, weights));
+        const auto q = project(triangle.camera, 1280, 720, WideTriangle::at(moved, weights));
+        if (weights.x < 0 || weights.y < 0 || weights.z < 0 ||
+            !(inPicture(p, 1280, 720) || inPicture(q, 1280, 720)))
+            continue;
+        RC_ASSERT(p && q && glm::distance(*p, *q) <= std::max(bound, 1.0 / 256) * (1 + 1e-6));
+    }
+}
+
+/// The rounding that is allowed for, by the sums that a vertex shader makes.
+RC_GTEST_PROP(RoundingPixels, AllowForWhatFloatsMakeOfACorner, (unsigned seed)) {
+    Dice dice(seed);
+    const WideTriangle triangle(dice);
+    RC_PRE(fabric::validate(triangle.camera).ok());
+    const View view(triangle.camera, 1280, 720);
+    const double step = 1.0 / 64;
+    const Mat4 worldFromLattice = glm::scale(Mat4(1.0), Vec3(step));
+    const LatticeView lattice(view, worldFromLattice);
+    const Mat4 projection = fabric::clipFromView(view.frustum, fabric::kNearMetres);
+    for (const Vec3& corner : triangle.corners) {
+        const Vec3 place = glm::round(corner / step);
+        const Vec3 exact = view.viewFromWorldRotation * (place * step - view.eye);
+        const glm::vec3 p(place - Vec3(lattice.cameraLattice));
+        const glm::mat4& m = lattice.clipFromLattice;
+        const auto row = [&](int i) {
+            return m[0][i] * p.x + m[1][i] * p.y + m[2][i] * p.z + m[3][i];
+        };
+        const Vec3 drawn(row(0) / projection[0][0], row(1) / projection[1][1], -row(3));
+        RC_ASSERT(glm::distance(drawn, exact) <= kRounding * glm::length(exact));
+    }
+}
+
+TEST(RoundingPixels, CountOnlyRightBeforeTheEye) {
+    Camera camera;
+    camera.eye = {0, 0, 2};
+    camera.target = {100, 0, 2};
+    const ObjectView view(View(camera, 1280, 720), Mat4(1.0));
+    const Box plain{Vec3(-5e4, -5e4, 0), Vec3(5e4, 5e4, 0)};
+    EXPECT_GT(view.roundingPixels(plain, plain), 1);
+    EXPECT_EQ(view.roundingPixels(plain, {Vec3(3e4, -1e4, 0), Vec3(5e4, 1e4, 0)}), 0);
+    const Box hill{Vec3(-100, -100, 0), Vec3(100, 100, 10)};
+    EXPECT_EQ(view.roundingPixels(hill, hill), std::numeric_limits<double>::infinity());
+    const Box behind{Vec3(-1e5, -100, 0), Vec3(-1, 100, 1)};
+    EXPECT_EQ(view.roundingPixels(behind, behind), 0);
 }
 
 RC_GTEST_PROP(Visibility, NeverHidesAPointThatIsInThePicture, (unsigned seed)) {
