@@ -510,6 +510,7 @@ TEST_F(MeshPaging, SaysThatMemoryHoldsNoNode) {
         {.name = "ball", .kind = fabric::ObjectKind::Mesh, .path = path("coded.eym")});
     const absl::Status status = (*renderer)->openScene(scene).status();
     EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted) << status;
+    EXPECT_NE(status.message().find("raise --memory"), absl::string_view::npos) << status;
 }
 
 }  // namespace
