@@ -268,7 +268,8 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
         if (const terrain::TileId& id = drawn_.tiles[i].id; needed_.contains(id))
             cut.pieces.push_back(
                 {i, needed_.position(id), index().bounds(id), true, index().tile(id).triangles});
-    imagery_.choose(drawn_.tiles, cut.pieces, request.view, texelPixels(step));
+    imagery_.choose(drawn_.tiles, cut.pieces, request.view, texelPixels(step),
+                    request.isFrozen ? terrain::Unseen::Coarsest : terrain::Unseen::LeftOut);
     if (request.wantsPageBounds)
         addPageBounds(wanted.cut, cut.pieces);
     wanted_.clear();
