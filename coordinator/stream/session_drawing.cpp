@@ -140,7 +140,8 @@ Session::Impl::Begun Session::Impl::begin() {
                                              movingScale(begun.view, source));
     begun.request = drawingOf(begun.view, source != nullptr ? &source->sceneInfo : nullptr, scale);
     begun.lift = liftOf(begun.view, source != nullptr ? &source->sceneInfo : nullptr);
-    if (isAtRest)
+    // A frozen cut is not to follow the time that frames take.
+    if (isAtRest || begun.request.look.cutCamera)
         begun.request.budgetMilliseconds.reset();
     begun.request.session = number_;
     begun.request.shown = screens(begun.view.frame.shown.front());

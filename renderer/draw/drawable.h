@@ -61,6 +61,7 @@ struct CutRequest {
     fabric::Completeness completeness = fabric::Completeness::Complete;
     double exaggeration = 1;       ///< of terrain; `view` holds it already
     bool wantsPageBounds = false;  ///< pieces for them, beside the nodes
+    bool isFrozen = false;         ///< what is chosen is seen from elsewhere than `view`
     std::stop_token stop = {};     ///< ends the wait for what a complete cut needs
     ViewTurn turn = {};            ///< of `view`
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "renderer/draw/node_work.h"
+#include "renderer/draw/range_step.h"
 
 namespace eyrie::draw {
 namespace {
@@ -83,6 +84,16 @@ std::vector<NeededItem> MeshChoice::itemsOf(const MeshCut& wanted) const {
             if (const std::uint64_t bytes = paging_->bytesOf(node.node); bytes > 0)
                 items.push_back({node.node, bytes});
     return items;
+}
+
+/// What a channel brings to the device at a step, with all that may stand in: of complete frames,
+/// too, or they would leave finer nodes there that leave others no room for theirs.
+std::uint64_t MeshChoice::bytesOf(int step, const CutRequest& request, const NodeShares& shares) {
+    MeshCut needed = wantedAt(step, request);
+    shares.keepNeeded(needed);
+    std::uint64_t sum = 0;
+    for (const NeededItem& item : itemsOf(needed)) sum += item.bytes;
+    return sum;
 }
 
 std::uint64_t MeshChoice::countMissing(const MeshCut& cut) const {
@@ -167,17 +178,25 @@ Cut MeshChoice::select(const CutRequest& request) {
                                                   : wantedOf(view, tauPixels));
         },
         paging_->roomBytes());
-    const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
     const std::vector<CutNode>& asked = wantedAt(0, request).wanted;
     // How much of the whole a node is decides nothing where all is drawn.
     const std::vector<double> work = request.range.isWhole() ? std::vector<double>(asked.size(), 1)
                                                              : workOf(*file_, request.view, asked);
-    const NodeShares shares(*file_, asked, work, request,
-                            [this](std::uint32_t node) { return hasBlended(node); });
-    MeshCut drawn = cutNow(choice.step, request, shares);
+    const auto sharesOf = [&](const fabric::Range& range) {
+        CutRequest part = request;
+        part.range = range;
+        return NodeShares(*file_, asked, work, part,
+                          [this](std::uint32_t node) { return hasBlended(node); });
+    };
+    const int step = stepOfRange(
+        request.range, choice.step, paging_->roomBytes(),
+        [&](const fabric::Range& range, int at) { return bytesOf(at, request, sharesOf(range)); });
+    const double tauPixels = request.tauPixels * page::TauLadder::factor(step);
+    const NodeShares shares = sharesOf(request.range);
+    MeshCut drawn = cutNow(step, request, shares);
     const MeshPaging::Progress progress = load(request, tauPixels, shares, drawn);
     if (progress.hasUploaded)
-        drawn = cutNow(choice.step, request, shares);
+        drawn = cutNow(step, request, shares);
 
     Cut cut;
     cut.pagesLoaded = progress.loaded.pages;

@@ -39,6 +39,7 @@ private:
     const MeshCut& wantedAt(int step, const CutRequest& request);
     MeshCut cutNow(int step, const CutRequest& request, const NodeShares& shares);
     std::vector<NeededItem> itemsOf(const MeshCut& wanted) const;
+    std::uint64_t bytesOf(int step, const CutRequest& request, const NodeShares& shares);
     std::uint64_t countMissing(const MeshCut& cut) const;
     page::HostPages::Loads reach(const CutRequest& request, double tauPixels,
                                  const NodeShares& shares);

@@ -378,12 +378,12 @@ absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& ob
                      MeshTextures::read(*file, memory.deviceBytes / 2, format));
     if (textures.bytes() > memory.deviceBytes)
         return absl::ResourceExhaustedError(fmt::format(
-            "{}: its textures' coarsest levels need {} bytes, and its share of memory on the "
-            "device is {}; raise the limit, or open fewer objects",
+            "{}: its textures' coarsest levels need {} bytes on the device, and its share of "
+            "memory there is {}; raise --memory, or open fewer objects",
             object.path, textures.bytes(), memory.deviceBytes));
     ASSIGN_OR_RETURN(
         auto paging,
-        MeshPaging::open(file, loader, {memory.deviceBytes - textures.bytes(), memory.hostBytes}));
+        MeshPaging::open(file, loader, {memory.deviceBytes, memory.hostBytes, textures.bytes()}));
     return std::make_unique<MeshDrawable>(object, programs, pointPrograms, std::move(file),
                                           std::move(textures), std::move(paging));
 }

@@ -6,10 +6,9 @@
 #include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "fabric/log.h"
 #include "fabric/status.h"
+#include "renderer/draw/least_memory.h"
 #include "renderer/page/remote_name.h"
 
 namespace eyrie::draw {
@@ -95,13 +94,10 @@ absl::StatusOr<std::unique_ptr<MeshPaging>> MeshPaging::open(
         greatestBlock = std::max<std::uint64_t>(greatestBlock, mesh::blockBytes(file->shape(node)));
         greatestPage = std::max(greatestPage, hostBytes(*file, node));
     }
-    const std::uint64_t least =
-        mesh::blockBytes(file->shape(0)) + (file->nodes().size() > 1 ? greatestBlock : 0);
-    if (limits.hostBytes < 2 * greatestPage || limits.deviceBytes < least)
-        return absl::ResourceExhaustedError(fmt::format(
-            "{}: this mesh's share of memory is {} bytes on the device and {} on the host; its "
-            "nodes need {} and {} at least; raise the limits, or open fewer objects",
-            file->path(), limits.deviceBytes, limits.hostBytes, least, 2 * greatestPage));
+    const std::uint64_t least = limits.textureBytes + mesh::blockBytes(file->shape(0)) +
+                                (file->nodes().size() > 1 ? greatestBlock : 0);
+    RETURN_IF_ERROR(checkHolds({limits.deviceBytes, limits.hostBytes}, {least, 2 * greatestPage},
+                               file->path(), limits.textureBytes));
     std::unique_ptr<DeviceNode> root = uploadRoot(*file);
     return std::unique_ptr<MeshPaging>(
         new MeshPaging(std::move(file), loader, limits, std::move(root), greatestPage));
@@ -113,7 +109,7 @@ MeshPaging::MeshPaging(std::shared_ptr<const mesh::EymFile> file, page::Loader& 
     : file_(std::move(file)),
       root_(std::move(root)),
       rootBytes_(root_ ? mesh::blockBytes(file_->shape(0)) : 0),
-      items_(limits.deviceBytes - rootBytes_),
+      items_(limits.deviceBytes - limits.textureBytes - rootBytes_),
       pages_(loader, loadFrom(file_), factsOf(file_), limits.hostBytes, greatestPage) {}
 
 ViewClaim& MeshPaging::beginFrame(const ViewTurn& turn) {

@@ -37,7 +37,8 @@ struct DeviceNode {
 /// Limits in bytes of what one mesh holds; they hold at all times.
 struct MeshMemory {
     std::uint64_t deviceBytes = 0;
-    std::uint64_t hostBytes = 0;  ///< pages in memory or being loaded
+    std::uint64_t hostBytes = 0;     ///< pages in memory or being loaded
+    std::uint64_t textureBytes = 0;  ///< of those on the device, taken by textures
 };
 
 /// Which nodes of one mesh are on the device, and the pages on their way there. GL thread.

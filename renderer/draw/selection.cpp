@@ -109,7 +109,7 @@ Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews
         const lod::ObjectView cutObjectView(cutView, worldFromObject);
         const Cut cut = objects[i].drawable->selectCut(
             {cutObjectView, cutChannel, ranges[i], frameData.tauPixels, task.completeness,
-             look.exaggeration, look.pageBounds, stop, turn});
+             look.exaggeration, look.pageBounds, look.cutCamera.has_value(), stop, turn});
         addTo(statistics, cut);
         const bool hasLayers =
             look.objects.shadingOf(i, frameData.shading) != fabric::Shading::Wireframe;

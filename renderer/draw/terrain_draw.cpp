@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "renderer/draw/object_program.h"
 #include "renderer/draw/page_bounds.h"
 #include "renderer/draw/prefetch.h"
+#include "renderer/draw/range_step.h"
 #include "renderer/draw/seen_boxes.h"
 #include "renderer/draw/tau_choice.h"
 #include "renderer/draw/terrain_ahead.h"
@@ -44,18 +44,6 @@ constexpr double kElevationBands = 5;               ///< of effects/terrain.effe
 
 /// Where memory is short, texels grow as tau does.
 double texelPixels(int step) { return terrain::kTexelPixels * page::TauLadder::factor(step); }
-
-/// All of the equal ranges that `range` is one of, to a millionth; else it alone.
-std::vector<fabric::Range> equalRanges(const fabric::Range& range) {
-    constexpr double kRounding = 1e-6;
-    constexpr double kMost = 1024;
-    const double count = std::round(1 / (range.end - range.begin));
-    const double index = std::round(range.begin * count);
-    if (!(count <= kMost) || std::abs(range.begin * count - index) > kRounding ||
-        std::abs(range.end * count - index - 1) > kRounding)
-        return {range};
-    return fabric::split(fabric::Range{}, fabric::equalCuts(static_cast<int>(count)));
-}
 
 /// Calls `draw` with those stretches of `tile`'s part `part` that may be seen, in their order.
 template <typename Draw>
@@ -228,27 +216,16 @@ std::uint64_t TerrainDrawable::bytesOf(const CutRequest& request, int step) {
     return sum;
 }
 
-/// The lowest step from the view's `first` on at which what the channel needs fits by itself. That
-/// may be more than its share of what the view needs: shares are of triangles, but pictures are as
-/// large as their ground, and several channels may need the same. Of equal ranges it is what the
-/// neediest needs, so that all of them come to the same step, and tiles meet.
+/// Where channels' steps are equal, tiles meet.
 int TerrainDrawable::stepOf(const CutRequest& request, int first) {
-    const std::uint64_t room = paging_->roomBytes();
     // Of the whole view, as ever: channels that see parts of it come to the same step, too.
     CutRequest part{
         request.view, request.view.view().frustum, {}, request.tauPixels, request.completeness};
-    if (request.range.isWhole() || bytesOf(part, first) <= room)
-        return first;
-    const std::vector<fabric::Range> ranges = equalRanges(request.range);
-    const auto bytes = [&](int step) {
-        std::uint64_t most = 0;
-        for (const fabric::Range& range : ranges) {
-            part.range = range;
-            most = std::max(most, bytesOf(part, step));
-        }
-        return most;
-    };
-    return bytes(first) <= room ? first : page::TauLadder::lowest(bytes, room, first + 1);
+    return stepOfRange(request.range, first, paging_->roomBytes(),
+                       [&](const fabric::Range& range, int step) {
+                           part.range = range;
+                           return bytesOf(part, step);
+                       });
 }
 
 Cut TerrainDrawable::selectCut(const CutRequest& request) {
@@ -291,7 +268,8 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
         if (const terrain::TileId& id = drawn_.tiles[i].id; needed_.contains(id))
             cut.pieces.push_back(
                 {i, needed_.position(id), index().bounds(id), true, index().tile(id).triangles});
-    imagery_.choose(drawn_.tiles, cut.pieces, request.view, texelPixels(step));
+    imagery_.choose(drawn_.tiles, cut.pieces, request.view, texelPixels(step),
+                    request.isFrozen ? terrain::Unseen::Coarsest : terrain::Unseen::LeftOut);
     if (request.wantsPageBounds)
         addPageBounds(wanted.cut, cut.pieces);
     wanted_.clear();

@@ -5,10 +5,10 @@
 #include <unordered_set>
 #include <utility>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "fabric/status.h"
+#include "renderer/draw/least_memory.h"
 #include "renderer/terrain/tile_bytes.h"
 
 namespace eyrie::draw {
@@ -59,12 +59,8 @@ absl::StatusOr<std::unique_ptr<TerrainPaging>> TerrainPaging::open(
         topBytes += names.of(topId).deviceBytes;
     }
     const std::uint64_t greatestPage = names.greatestOfAllPages();
-    const std::uint64_t least = 2 * greatestPage;
-    if (limits.hostBytes < least || limits.deviceBytes < topBytes)
-        return absl::ResourceExhaustedError(fmt::format(
-            "{}: this terrain's share of memory is {} bytes on the device and {} on the host; its "
-            "pages need {} and {} at least; raise the limits, or open fewer objects",
-            file->path(), limits.deviceBytes, limits.hostBytes, topBytes, least));
+    RETURN_IF_ERROR(checkHolds({limits.deviceBytes, limits.hostBytes}, {topBytes, 2 * greatestPage},
+                               file->path()));
     std::unique_ptr<TerrainPaging> paging(
         new TerrainPaging(std::move(file), loader, limits, format, decoder, topBytes));
     paging->top_ = std::make_unique<DeviceTile>(geometry, decoder);

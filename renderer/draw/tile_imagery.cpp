@@ -46,7 +46,7 @@ std::vector<TerrainItem> TileImagery::itemsOf(std::span<const TileId> tiles,
 
 void TileImagery::choose(std::span<const terrain::TileChoice> choices,
                          std::span<const Piece> pieces, const lod::ObjectView& view,
-                         double texelPixels) {
+                         double texelPixels, terrain::Unseen unseen) {
     parts_.clear();
     if (!index_.imagery)
         return;
@@ -54,9 +54,9 @@ void TileImagery::choose(std::span<const terrain::TileChoice> choices,
         const TileId& tile = choices[piece.index].id;
         parts_.emplace(
             index_.quadtree.tileIndex(tile),
-            terrain::imageryParts(index_, view, texelPixels, tile, [&](const TextureId& texture) {
-                return paging_.isResident(texture);
-            }));
+            terrain::imageryParts(
+                index_, view, texelPixels, tile,
+                [&](const TextureId& texture) { return paging_.isResident(texture); }, unseen));
     }
 }
 

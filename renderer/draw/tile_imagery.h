@@ -32,7 +32,7 @@ public:
 
     /// Finds what each piece, which names one of `choices`, is drawn with now.
     void choose(std::span<const terrain::TileChoice> choices, std::span<const Piece> pieces,
-                const lod::ObjectView& view, double texelPixels);
+                const lod::ObjectView& view, double texelPixels, terrain::Unseen unseen);
     /// Of a tile of the last choose(). Empty: the view sees none of it.
     const std::vector<terrain::ImageryPart>& partsOf(const terrain::TileId& tile) const {
         return index_.imagery ? parts_.at(index_.quadtree.tileIndex(tile)) : bare_;

@@ -159,6 +159,22 @@ TEST(Viewer, KeepsAFrameTimeUntilTheViewRestsAndThenDrawsWhatWasAskedFor) {
     EXPECT_FALSE(frames.requests()[1].budgetMilliseconds.has_value());
 }
 
+/// Or it would follow the time that frames take.
+TEST(Viewer, KeepsNoFrameTimeWhereTheCutIsFrozen) {
+    FakeFrameSource frames;
+    frames.setDraw(drawnAt(4));
+    Browser browser(frames, resting());
+    v1::ViewerRequest request = viewIn(33);
+    v1::Camera& frozen = *request.mutable_view()->mutable_look()->mutable_cut_camera();
+    frozen = request.view().camera();
+    browser.send(request);
+    const auto frame = browser.nextFrame();
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frame->width(), 64);
+    EXPECT_FALSE(frame->statistics().has_budget());
+    EXPECT_FALSE(frames.requests().at(0).budgetMilliseconds.has_value());
+}
+
 /// As of a segment beside its canvas: it is its share of the size that is asked for.
 TEST(Viewer, RestsWherePicturesAreSmallerThanAskedFor) {
     FakeFrameSource frames;

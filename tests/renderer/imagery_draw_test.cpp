@@ -128,9 +128,10 @@ protected:
     static ChannelResult draw(Renderer& renderer, const fabric::Camera& camera,
                               Completeness completeness = Completeness::Complete,
                               PixelViewport part = {0, 0, kWidth, kHeight},
-                              const fabric::Range& range = {}) {
+                              const fabric::Range& range = {}, const fabric::Look& look = {}) {
         fabric::FrameData frame;
         frame.camera = camera;
+        frame.look = look;
         fabric::ChannelTask task;
         task.viewWidth = kWidth;
         task.viewHeight = kHeight;
@@ -446,6 +447,26 @@ TEST_F(ImageryDraw, RangesKeepWithinTheDevicesMemoryByCoarserTexels) {
             EXPECT_LE(renderer->memory().deviceBytes, options.memoryBytes);
         }
     }
+}
+
+/// A tile of which the frozen camera sees some is drawn whole.
+TEST_F(ImageryDraw, AFrozenCutHasTheGroundThatItHasWithoutPictures) {
+    const terrain::HeightGrid grid = plain(385, 257, 10);
+    import(grid, 10, 1.25, pattern);
+    const test::TemporaryFolder folder;
+    const auto bare = test::importedWith(grid, {}, folder);
+    ASSERT_TRUE(bare.ok()) << bare.status();
+    const Overhead frozen{{kWest + 600, kSouth + 500}, 1};
+    const Overhead whole{{kWest + 1920, kSouth + 1280}, 8};
+    const auto ground = [&](const std::string& path) {
+        const ChannelResult drawn =
+            draw(*open(path), whole.camera(), Completeness::Complete, {0, 0, kWidth, kHeight}, {},
+                 {.cutCamera = frozen.camera()});
+        const auto& pixels = drawn.image.colour;
+        return std::ssize(pixels) - std::count(pixels.begin(), pixels.end(), kBackground);
+    };
+    EXPECT_GT(ground(file_->path()), 480 * 320 * 9 / 10);
+    EXPECT_EQ(ground(file_->path()), ground((*bare)->path()));
 }
 
 /// The eye is within the terrain's box, where no finite error is promised.

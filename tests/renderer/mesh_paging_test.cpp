@@ -331,6 +331,37 @@ TEST_F(MeshPaging, RangesLeaveNoHoleWhereOneOfTheirRenderersLacksPages) {
     }
 }
 
+/// What is blended falls to every range, and takes more than a range's share of what the view
+/// needs.
+TEST_F(MeshPaging, RangesOfGlassKeepWithinMemoryByMoreTau) {
+    constexpr double kTau = 0.05;
+    import::TriangleMesh glass = import::synthesizeMesh(150000, 4);
+    glass.materials = {{.flags = mesh::kIsBlended}};
+    glass.materialOf.assign(glass.positions.size(), 0);
+    ASSERT_TRUE(import::importMesh(glass, path("glass.eym")).ok());
+    const auto plenty = open(path("glass.eym"));
+    render(*plenty, 2.2, kTau, Completeness::Complete);
+    for (const std::uint64_t share : {2U, 3U, 4U, 6U}) {
+        RendererOptions options;
+        options.memoryBytes = plenty->memory().deviceBytes * share / 8;
+        const auto renderer = open(path("glass.eym"), options);
+        for (const double first : {0.0, 0.25, 0.5, 0.75}) {
+            const auto drawn = [&](Completeness completeness) {
+                return render(*renderer, 2.2, kTau, completeness, {first, first + 0.25}).statistics;
+            };
+            const auto end = std::chrono::steady_clock::now() + kPatience;
+            fabric::FrameStatistics rest = drawn(Completeness::Interactive);
+            while (!rest.complete && std::chrono::steady_clock::now() < end)
+                rest = drawn(Completeness::Interactive);
+            ASSERT_TRUE(rest.complete) << share << "/8, from " << first;
+            const fabric::FrameStatistics still = drawn(Completeness::Complete);
+            EXPECT_EQ(still.pagesMissing, 0U) << share << "/8, from " << first;
+            EXPECT_LE(still.tauAchievedPixels, rest.tauAchievedPixels);
+            EXPECT_LE(renderer->memory().deviceBytes, options.memoryBytes);
+        }
+    }
+}
+
 /// At one half of the ball and at the other: with less on the device than both need, and with
 /// enough there but on the host less than what may be needed soon.
 TEST_F(MeshPaging, TwoViewsByTurnsComeToRestAndOneThatIsGoneLeavesItsShare) {
@@ -479,6 +510,7 @@ TEST_F(MeshPaging, SaysThatMemoryHoldsNoNode) {
         {.name = "ball", .kind = fabric::ObjectKind::Mesh, .path = path("coded.eym")});
     const absl::Status status = (*renderer)->openScene(scene).status();
     EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted) << status;
+    EXPECT_NE(status.message().find("raise --memory"), absl::string_view::npos) << status;
 }
 
 }  // namespace

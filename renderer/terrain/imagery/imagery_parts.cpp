@@ -19,7 +19,8 @@ struct Square {
 class PartFinder {
 public:
     PartFinder(const EytIndex& index, const lod::ObjectView& view, double texelPixels,
-               const TileId& tile, const std::function<bool(const TextureId&)>& isThere)
+               const TileId& tile, const std::function<bool(const TextureId&)>& isThere,
+               Unseen unseen)
         : index_(index),
           imagery_(*index.imagery),
           view_(view),
@@ -28,6 +29,7 @@ public:
           tile_{tile.x * Quadtree::side(tile.level), tile.y * Quadtree::side(tile.level),
                 Quadtree::side(tile.level)},
           isThere_(isThere),
+          unseen_(unseen),
           postMetres_(std::max(glm::length(fabric::Vec3(index.objectFromLattice[0])),
                                glm::length(fabric::Vec3(index.objectFromLattice[1])))) {}
 
@@ -49,7 +51,8 @@ private:
         for (int k = 0; k < 4; ++k) {
             const Square quarter{square.x + (k & 1) * half, square.y + (k >> 1) * half, half};
             if (quarter.x < index_.quadtree.columns() - 1 &&
-                quarter.y < index_.quadtree.rows() - 1 && view_.isVisible(boundsOf(quarter)))
+                quarter.y < index_.quadtree.rows() - 1 &&
+                (unseen_ == Unseen::Coarsest || view_.isVisible(boundsOf(quarter))))
                 add(quarter);
         }
         joinFrom(first, square);
@@ -127,6 +130,7 @@ private:
     const TileRecord& record_;
     Square tile_;
     const std::function<bool(const TextureId&)>& isThere_;
+    Unseen unseen_;
     double postMetres_;
     std::vector<ImageryPart> parts_;
 };
@@ -135,8 +139,9 @@ private:
 
 std::vector<ImageryPart> imageryParts(const EytIndex& index, const lod::ObjectView& view,
                                       double texelPixels, const TileId& tile,
-                                      const std::function<bool(const TextureId&)>& isThere) {
-    return PartFinder(index, view, texelPixels, tile, isThere).find();
+                                      const std::function<bool(const TextureId&)>& isThere,
+                                      Unseen unseen) {
+    return PartFinder(index, view, texelPixels, tile, isThere, unseen).find();
 }
 
 }  // namespace eyrie::terrain

@@ -31,18 +31,22 @@ struct ImageryPart {
     bool operator==(const ImageryPart&) const = default;
 };
 
+/// What becomes of those parts of a tile that the view does not see.
+enum class Unseen { LeftOut, Coarsest };
+
 /// Which texture tiles lie on a tile's ground in a view.
 ///
 /// The coarsest whose texels are at most `texelPixels` on the screen anywhere in the part, or the
 /// finest there are. Where one texture tile covers the whole tile there is one part. Otherwise, on
 /// pictures much finer than the posts, the tile is quartered until one does; each quarter chooses
-/// for itself. What the view does not see is in no part.
+/// for itself. What the view does not see is in no part, or has the coarsest texture.
 ///
 /// In place of a texture tile that is not there (`isThere`) comes the nearest above that is.
 /// Precondition: index.imagery.
 std::vector<ImageryPart> imageryParts(const EytIndex& index, const lod::ObjectView& view,
                                       double texelPixels, const TileId& tile,
-                                      const std::function<bool(const TextureId&)>& isThere);
+                                      const std::function<bool(const TextureId&)>& isThere,
+                                      Unseen unseen = Unseen::LeftOut);
 
 /// Texels a side of the screen: what is asked for at tau 1. The nearest point of a part decides for
 /// all of it, so most of its texels are smaller.

@@ -110,6 +110,25 @@ RC_GTEST_PROP(ImageryParts, HaveAnAncestorInPlaceOfWhatIsNotThere, ()) {
         RC_ASSERT(part.texture.has_value() && part.texture->level >= coarse);
 }
 
+/// As what another view sees of it may be any of it.
+RC_GTEST_PROP(ImageryParts, CoverAllOfATileWhereNoneIsLeftOut, ()) {
+    const EytIndex index = ground(*rc::gen::inRange(-6, 7));
+    const TileId tile = someTile(index);
+    const auto parts =
+        imageryParts(index, someView(), kTexelPixels, tile, isThere, Unseen::Coarsest);
+    const int side = Quadtree::side(tile.level);
+    for (int k = 0; k < 20; ++k) {
+        const double x = *rc::gen::inRange(0, 1000) * 1e-3 * side;
+        const double y = *rc::gen::inRange(0, 1000) * 1e-3 * side;
+        if (tile.x * side + x > index.quadtree.columns() - 1 ||
+            tile.y * side + y > index.quadtree.rows() - 1)
+            continue;
+        RC_ASSERT(std::ranges::count_if(parts, [&](const ImageryPart& part) {
+                      return holds(part, x, y) && part.texture.has_value();
+                  }) == 1);
+    }
+}
+
 TEST(ImageryParts, AreOneWhereOneTextureTileCoversTheTile) {
     const EytIndex index = ground(2);  // 128 posts a texture tile
     const auto parts = imageryParts(index, viewFrom({1000, 1000, 300}, {1000, 1000, 0}),
