@@ -116,6 +116,18 @@ double largestP99(const std::vector<BenchRun>& runs) {
 }
 
 /// Of the frames that do not keep their promise, the one that is farthest off.
+/// Of the frames in which some run has something to measure.
+std::vector<fabric::Camera> measuredCameras(const FlightJudge& judge,
+                                            const std::vector<BenchRun>& runs) {
+    const std::vector<fabric::Camera> judged = judge.cameras();
+    std::vector<fabric::Camera> measured;
+    for (std::size_t i = 0; i < judged.size(); ++i)
+        if (std::ranges::any_of(
+                runs, [i](const BenchRun& run) { return !isEmpty(run.measured->frames[i]); }))
+            measured.push_back(judged[i]);
+    return measured;
+}
+
 std::optional<FrameError> worstBroken(const std::vector<FrameError>& frames) {
     std::optional<FrameError> worst;
     const auto beyond = [](const FrameError& error) {
@@ -197,7 +209,7 @@ absl::StatusOr<std::vector<UniformLevel>> measureRuns(const ReferencePlan& refer
     RETURN_IF_ERROR(checkCompared(runs));
     int done = 0;
     const auto levelDone = [&] { progress("uniform decimation", 1 - std::ldexp(1.0, -++done)); };
-    return uniformLevels(judge.reference(), judge.cameras(), plan.play.request.width,
+    return uniformLevels(judge.reference(), measuredCameras(judge, runs), plan.play.request.width,
                          plan.play.request.height, largestP99(runs), levelDone, stop);
 }
 
