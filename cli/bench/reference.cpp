@@ -101,10 +101,11 @@ absl::Status checkCompared(const std::vector<BenchRun>& runs) {
         for (const FrameError& error : run.measured->frames)
             if (error.compared > 0)
                 return absl::OkStatus();
-    return absl::FailedPreconditionError(
+    const std::string& ofSize = runs.front().sizeNote;
+    return absl::FailedPreconditionError(fmt::format(
         "nothing was measured: no frame that was held against the source shows anything of it "
-        "(what "
-        "is see-through does not count); take another flight, or more --reference-frames");
+        "(what is see-through does not count); {}",
+        ofSize.empty() ? "take another flight, or more --reference-frames" : ofSize));
 }
 
 double largestP99(const std::vector<BenchRun>& runs) {
@@ -115,7 +116,6 @@ double largestP99(const std::vector<BenchRun>& runs) {
     return largest;
 }
 
-/// Of the frames that do not keep their promise, the one that is farthest off.
 /// Of the frames in which some run has something to measure.
 std::vector<fabric::Camera> measuredCameras(const FlightJudge& judge,
                                             const std::vector<BenchRun>& runs) {
@@ -128,6 +128,7 @@ std::vector<fabric::Camera> measuredCameras(const FlightJudge& judge,
     return measured;
 }
 
+/// Of the frames that do not keep their promise, the one that is farthest off.
 std::optional<FrameError> worstBroken(const std::vector<FrameError>& frames) {
     std::optional<FrameError> worst;
     const auto beyond = [](const FrameError& error) {

@@ -401,6 +401,27 @@ TEST_F(Bench, AFlightThatNeverSeesTheSceneIsRefused) {
     EXPECT_FALSE(std::filesystem::exists(path("none")));
 }
 
+/// Of which all is nearer to the eye than anything that is drawn.
+TEST_F(Bench, SaysThatASceneIsTooSmallToBeSeen) {
+    ASSERT_TRUE(succeeded({"synth", "mesh", "--size", "2000", "--seed", "3", "-o", path("s.ply")}));
+    folder_->write("small.json", R"({"objects":[{"mesh":"s.ply","transform":{"scale":0.0001}}]})");
+    const test::TemporaryFolder cache;
+    std::vector<std::string> arguments{"bench",     path("small.json"),
+                                       "--tau",     "1",
+                                       "--size",    "160x90",
+                                       "--frames",  "4",
+                                       "--repeats", "1",
+                                       "--cache",   cache.path("imports"),
+                                       "-o",        path("small")};
+    const test::Outcome played = eyrie(arguments);
+    EXPECT_EQ(played.exit, (test::Exit{0, 0})) << played.errors;
+    EXPECT_THAT(played.errors, testing::HasSubstr("small.json: the scene is 0."));
+    arguments.insert(arguments.end(), {"--reference", "--quiet"});
+    const test::Outcome measured = eyrie(arguments);
+    EXPECT_EQ(measured.exit, (test::Exit{1, 0})) << measured.errors;
+    EXPECT_THAT(measured.errors, testing::ContainsRegex("nothing was measured.*scale it up"));
+}
+
 TEST_F(Bench, AStillCameraIsAFlightAndEmptyFramesAreCounted) {
     const std::string out = R"({"seconds":9,"camera":{"eye":[503840,5194000,2500],)"
                             R"("target":[503840,5190000,2500]}})";
