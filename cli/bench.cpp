@@ -185,6 +185,8 @@ absl::Status runBench(const Options& options) {
     ASSIGN_OR_RETURN(auto runs, bench::playRuns(plan, stop.token()));
     if (!options.pictures.quiet && !runs.front().flightNote.empty())
         tell(fmt::format("{}: {}", options.flight, runs.front().flightNote));
+    if (!options.pictures.quiet && !runs.front().sizeNote.empty())
+        tell(fmt::format("{}: {}", options.scene, runs.front().sizeNote));
     std::vector<bench::UniformLevel> uniform;
     if (reference) {
         ASSIGN_OR_RETURN(uniform, bench::measureRuns(*reference, plan, runs, stop.token()));

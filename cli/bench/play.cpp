@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "cli/bench/flights.h"
 #include "cli/bench/resident_memory.h"
 #include "coordinator/frame/frame_sequence.h"
+#include "coordinator/frame/problem.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli::bench {
@@ -20,10 +22,12 @@ using Clock = std::chrono::steady_clock;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
 absl::Status nothingSeen(const fabric::Box& bounds) {
-    return absl::InvalidArgumentError(fmt::format(
-        "no frame of the flight shows anything of the scene, which lies between "
-        "({}, {}, {}) and ({}, {}, {}); fly where the data are",
-        bounds.min.x, bounds.min.y, bounds.min.z, bounds.max.x, bounds.max.y, bounds.max.z));
+    const std::string ofSize = coordinator::noteOfSize(bounds);
+    return absl::InvalidArgumentError(
+        fmt::format("no frame of the flight shows anything of the scene, which lies between "
+                    "({}, {}, {}) and ({}, {}, {}); {}",
+                    bounds.min.x, bounds.min.y, bounds.min.z, bounds.max.x, bounds.max.y,
+                    bounds.max.z, ofSize.empty() ? "fly where the data are" : ofSize));
 }
 
 /// Errors in pixels that are `stretch` times smaller.

@@ -101,10 +101,11 @@ absl::Status checkCompared(const std::vector<BenchRun>& runs) {
         for (const FrameError& error : run.measured->frames)
             if (error.compared > 0)
                 return absl::OkStatus();
-    return absl::FailedPreconditionError(
+    const std::string& ofSize = runs.front().sizeNote;
+    return absl::FailedPreconditionError(fmt::format(
         "nothing was measured: no frame that was held against the source shows anything of it "
-        "(what "
-        "is see-through does not count); take another flight, or more --reference-frames");
+        "(what is see-through does not count); {}",
+        ofSize.empty() ? "take another flight, or more --reference-frames" : ofSize));
 }
 
 double largestP99(const std::vector<BenchRun>& runs) {
@@ -113,6 +114,18 @@ double largestP99(const std::vector<BenchRun>& runs) {
         for (const FrameError& error : run.measured->frames)
             largest = std::max(largest, error.p99Pixels);
     return largest;
+}
+
+/// Of the frames in which some run has something to measure.
+std::vector<fabric::Camera> measuredCameras(const FlightJudge& judge,
+                                            const std::vector<BenchRun>& runs) {
+    const std::vector<fabric::Camera> judged = judge.cameras();
+    std::vector<fabric::Camera> measured;
+    for (std::size_t i = 0; i < judged.size(); ++i)
+        if (std::ranges::any_of(
+                runs, [i](const BenchRun& run) { return !isEmpty(run.measured->frames[i]); }))
+            measured.push_back(judged[i]);
+    return measured;
 }
 
 /// Of the frames that do not keep their promise, the one that is farthest off.
@@ -197,7 +210,7 @@ absl::StatusOr<std::vector<UniformLevel>> measureRuns(const ReferencePlan& refer
     RETURN_IF_ERROR(checkCompared(runs));
     int done = 0;
     const auto levelDone = [&] { progress("uniform decimation", 1 - std::ldexp(1.0, -++done)); };
-    return uniformLevels(judge.reference(), judge.cameras(), plan.play.request.width,
+    return uniformLevels(judge.reference(), measuredCameras(judge, runs), plan.play.request.width,
                          plan.play.request.height, largestP99(runs), levelDone, stop);
 }
 

@@ -186,9 +186,11 @@ ErrorSummary summarize(const MeasuredErrors& measured) {
     summary.psnrDb = std::numeric_limits<double>::infinity();
     std::vector<double> medians;
     for (const FrameError& frame : measured.frames) {
+        if (isEmpty(frame))
+            continue;
+        ++summary.frames;
         if (frame.compared > 0)
             medians.push_back(frame.p50Pixels);
-        summary.frames += isEmpty(frame) ? 0 : 1;
         summary.p99Pixels = std::max(summary.p99Pixels, frame.p99Pixels);
         summary.maxPixels = std::max(summary.maxPixels, frame.maxPixels);
         summary.promisedPixels = std::max(summary.promisedPixels, frame.promisedPixels);
@@ -201,9 +203,9 @@ ErrorSummary summarize(const MeasuredErrors& measured) {
         summary.ssim = std::min(summary.ssim, frame.ssim);
         summary.flip = std::max(summary.flip, frame.flip);
         summary.withinPromise = summary.withinPromise && keepsPromise(frame);
-        summary.trianglesMean +=
-            static_cast<double>(frame.triangles) / static_cast<double>(measured.frames.size());
+        summary.trianglesMean += static_cast<double>(frame.triangles);
     }
+    summary.trianglesMean /= static_cast<double>(std::max<std::uint64_t>(summary.frames, 1));
     summary.p50Pixels = quantile(std::move(medians), 0.5);
     return summary;
 }

@@ -63,10 +63,10 @@ struct RunSummary {
 
 RunSummary summarize(const Played& played);
 
-/// Of all frames of a flight that were held against the source.
+/// Of the frames of a flight that were held against the source and are not empty.
 struct ErrorSummary {
-    std::uint64_t judged = 0;   ///< frames
-    std::uint64_t frames = 0;   ///< of these, that are not empty
+    std::uint64_t judged = 0;   ///< frames, with those that are empty
+    std::uint64_t frames = 0;   ///< of these, that are not
     double p50Pixels = 0;       ///< median of the frames' that show something of the source
     double p99Pixels = 0;       ///< of the worst frame
     double maxPixels = 0;       ///< of the worst frame

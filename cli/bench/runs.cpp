@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/frame/problem.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli::bench {
@@ -46,6 +47,7 @@ absl::Status playRun(const RunPlan& plan, BenchRun& run, const std::function<voi
     ASSIGN_OR_RETURN(const auto pictures, PictureSource::open(plan.scene, options, stop));
     ASSIGN_OR_RETURN(fabric::CameraPath path, plan.flight.over(pictures->sceneInfo().bounds));
     run.flightNote = std::move(path.note);
+    run.sizeNote = coordinator::noteOfSize(pictures->sceneInfo().bounds);
     run.sceneHash = hashOf(pictures->sceneInfo());
     PlayOptions play = plan.play;
     play.request.tauPixels = run.tauPixels;

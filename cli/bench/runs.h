@@ -29,6 +29,7 @@ struct BenchRun {
     std::optional<MeasuredErrors> measured = {};  ///< where a reference was asked for
     double budgetMilliseconds = 0;                ///< a frame time to hold; 0: tau was kept
     std::string flightNote = {};                  ///< what had to be assumed of it, or empty
+    std::string sizeNote = {};                    ///< coordinator::noteOfSize of the scene
     std::uint64_t sceneHash = 0;                  ///< BenchFacts::sceneHash
 };
 

@@ -68,6 +68,21 @@ absl::StatusOr<SourceFacts> inspectMesh(const std::vector<std::string>& paths) {
     return facts;
 }
 
+/// A strip at a time: of what is read at once the source holds a second copy.
+absl::Status readHeights(import::HeightSource& posts, std::vector<float>& heights) {
+    constexpr int kStripRows = 256;
+    const terrain::GridFrame& frame = posts.frame();
+    const int strips = (frame.rows - 1) / kStripRows + 1;
+    for (int i = 0; i < strips; ++i) {
+        const int row = kStripRows * (posts.isLastRowFirst() ? strips - 1 - i : i);
+        const int rows = std::min(kStripRows, frame.rows - row);
+        RETURN_IF_ERROR(
+            posts.read({0, row, frame.columns, rows},
+                       heights.data() + static_cast<std::ptrdiff_t>(row) * frame.columns));
+    }
+    return absl::OkStatus();
+}
+
 absl::StatusOr<SourceSurface> readTerrain(const std::vector<std::string>& paths) {
     ASSIGN_OR_RETURN(const import::DemSource source, import::openDems(paths, {}));
     const terrain::GridFrame& frame = source.posts->frame();
@@ -77,7 +92,7 @@ absl::StatusOr<SourceSurface> readTerrain(const std::vector<std::string>& paths)
                     .origin = frame.origin,
                     .perColumn = frame.perColumn,
                     .perRow = frame.perRow};
-    RETURN_IF_ERROR(source.posts->read({0, 0, frame.columns, frame.rows}, grid.heights.data()));
+    RETURN_IF_ERROR(readHeights(*source.posts, grid.heights));
     if (std::ranges::all_of(grid.heights, [](float height) { return std::isnan(height); }))
         return absl::InvalidArgumentError(fmt::format("{}: has no data at any of its {} x {} posts",
                                                       paths.front(), grid.columns, grid.rows));

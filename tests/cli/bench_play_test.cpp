@@ -28,7 +28,7 @@ public:
         const int smaller = request.budgetMilliseconds ? 2 : 1;
         frame.image = fabric::makeImage({0, 0, request.width / smaller, request.height / smaller},
                                         {}, request.wantsDepth);
-        frame.statistics.nodes = 1;
+        frame.statistics.nodes = isSeen ? 1 : 0;
         frame.statistics.tauAskedPixels = request.tauPixels;
         frame.statistics.tauAchievedPixels = request.camera.eye.x;
         if (request.budgetMilliseconds)
@@ -37,10 +37,12 @@ public:
         return frame;
     }
     int framesAtOnce() const override { return atOnce_; }
-    fabric::SceneInfo sceneInfo() const override { return {}; }
+    fabric::SceneInfo sceneInfo() const override { return scene; }
 
     std::atomic<int> drawn{0};
     int failing = 0;  ///< which one
+    bool isSeen = true;
+    fabric::SceneInfo scene;
 
 private:
     const int atOnce_;
@@ -172,6 +174,17 @@ TEST(ResidentMemory, PeaksDoNotHaveWhatWasFreedBefore) {
     EXPECT_LT(peakResidentBytes() + kBlock * kBlocks / 2, before);
 }
 #endif
+
+TEST(BenchPlay, AFlightThatSeesNothingSaysSoWithTheRemedyForScenesOfTheirSize) {
+    FakePictures pictures(1);
+    pictures.isSeen = false;
+    pictures.scene.bounds = {{0, 0, 0}, {3, 0, 0}};
+    EXPECT_THAT(playWith(pictures).status().ToString(),
+                testing::HasSubstr("(3, 0, 0); fly where the data are"));
+    pictures.scene.bounds.max.x = 0.0005;
+    EXPECT_THAT(playWith(pictures).status().ToString(),
+                testing::HasSubstr("(0.0005, 0, 0); the scene is 0.5 mm across"));
+}
 
 TEST(BenchPlay, AFrameThatCannotBeHadEndsItWithItsSecond) {
     for (const int atOnce : {1, 3}) {

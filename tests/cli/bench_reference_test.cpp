@@ -11,6 +11,7 @@
 #include "cli/bench/flight_judge.h"
 #include "cli/bench/flights.h"
 #include "cli/bench/reference.h"
+#include "cli/bench/resident_memory.h"
 #include "cli/bench/uniform_levels.h"
 #include "cli/source_record.h"
 #include "renderer/import/mesh_import.h"
@@ -173,6 +174,53 @@ TEST_F(ReferenceSources, OfTerrainsTakeMemoryForALevelOfUniformDecimation) {
     ASSERT_TRUE(facts.ok()) << facts.status();
     EXPECT_GE(facts->neededBytes, truth::TerrainRayCaster::bytesFor(64 * 64) +
                                       truth::TerrainRayCaster::bytesFor(32 * 32));
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // those keep what is freed
+/// Heights that GDAL reads past its own cache.
+TEST_F(ReferenceSources, OfTerrainsAreReadInTheMemoryThatTheyAreSaidToTake) {
+    const std::string path = folder_.path("dem.bil");
+    std::ofstream(folder_.path("dem.hdr"))
+        << "ncols 4096\nnrows 8192\nnbits 32\npixeltype float\nbyteorder I\nlayout bil\n"
+           "ulxmap 0\nulymap 0\nxdim 10\nydim 10\n";
+    std::ofstream(path).close();
+    fs::resize_file(path, std::uintmax_t{4096} * 8192 * sizeof(float));
+    const auto facts = truth::inspectSource(fabric::ObjectKind::Terrain, {path});
+    ASSERT_TRUE(facts.ok()) << facts.status();
+    resetPeakResidentBytes();
+    const std::uint64_t before = peakResidentBytes();
+    const auto source = truth::readSource(fabric::ObjectKind::Terrain, {path});
+    ASSERT_TRUE(source.ok()) << source.status();
+    EXPECT_LE(peakResidentBytes() - before, facts->neededBytes);
+}
+#endif
+
+/// Of more rows than are read at once, in files from the north down and from the south up; here
+/// they begin in the south.
+TEST_F(ReferenceSources, OfTerrainsHaveEachPostWhereItIs) {
+    constexpr int kRows = 600;
+    std::string posts;
+    for (int row = 0; row < kRows; ++row) posts += fmt::format("{} {}\n", row, -row);
+    std::ofstream(folder_.path("down.asc"))
+        << "ncols 2\nnrows 600\nxllcorner 0\nyllcorner 0\ncellsize 10\n"
+        << posts;
+    std::ofstream(folder_.path("up.vrt"))
+        << R"(<VRTDataset rasterXSize="2" rasterYSize="600">)"
+           R"(<GeoTransform>0, 10, 0, 0, 0, 10</GeoTransform>)"
+           R"(<VRTRasterBand dataType="Float32" band="1"><SimpleSource>)"
+           R"(<SourceFilename relativeToVRT="1">down.asc</SourceFilename>)"
+           R"(</SimpleSource></VRTRasterBand></VRTDataset>)";
+    for (const bool isUp : {false, true}) {
+        const auto source = truth::readSource(fabric::ObjectKind::Terrain,
+                                              {folder_.path(isUp ? "up.vrt" : "down.asc")});
+        ASSERT_TRUE(source.ok()) << source.status();
+        std::vector<float> expected;
+        for (int row = 0; row < kRows; ++row) {
+            const auto height = static_cast<float>(isUp ? row : kRows - 1 - row);
+            expected.insert(expected.end(), {height, -height});
+        }
+        EXPECT_EQ(source->terrain->grid().heights, expected) << (isUp ? "up" : "down");
+    }
 }
 
 TEST_F(ReferenceSources, OfGltfTakeMemoryForTheirBuffers) {

@@ -238,12 +238,16 @@ TEST(BenchReport, FramesThatShowNothingAreNotMeasured) {
     Report made = madeUpReport();
     const auto p50 = summarize(*made.runs[0].measured).p50Pixels;
     for (int i = 0; i < 5; ++i)
-        made.runs[0].measured->frames.insert(made.runs[0].measured->frames.begin(),
-                                             FrameError{.seconds = 0.1 * i});
+        made.runs[0].measured->frames.insert(
+            made.runs[0].measured->frames.begin(),
+            FrameError{.seconds = 0.1 * i, .promisedPixels = 3, .triangles = 200});
     EXPECT_EQ(summarize(*made.runs[0].measured).p50Pixels, p50);
     const auto run = test::list(parseJson(summaryJson(made)), "runs").at(0);
     EXPECT_EQ(number(run, "framesMeasured"), 3);
     EXPECT_EQ(number(run, "framesJudged"), 8);
+    EXPECT_EQ(number(run, "errorPx.promised"), 1);
+    EXPECT_NEAR(number(run, "trianglesMeasured"), 600, 1e-9) << "drawn in view, and not seen";
+    EXPECT_NEAR(number(run, "efficiency"), 800. / 600, 1e-9);
     EXPECT_THAT(reportPage(made), testing::Not(testing::HasSubstr("\"seconds\": 0.1,")));
 }
 

@@ -309,6 +309,29 @@ TEST_F(Bench, PromisesOfNextToNothingAreKept) {
     EXPECT_LE(number(runs[0], "errorPx.max"), number(runs[0], "tauAchievedMax") + 1.0 / 256);
 }
 
+/// The same view once, beside one that looks away, and twice.
+TEST_F(Bench, WhatIsMeasuredHasNothingOfFramesThatShowNothing) {
+    ASSERT_TRUE(succeeded({"synth", "mesh", "--size", "2000", "--seed", "3", "-o", path("n.ply")}));
+    const std::string there = R"({"seconds":0,"camera":{"eye":[4,0,0],"target":[0,0,0]}})";
+    const std::string away = R"({"seconds":9,"camera":{"eye":[4,0,0],"target":[8,0,0]}})";
+    const test::TemporaryFolder cache;
+    const auto measured = [&](const std::string& name, const std::string& keys) {
+        const std::string flight = writeFlight(name + ".json", keys);
+        EXPECT_TRUE(succeeded({"bench", path("n.ply"), "--flight", flight, "--tau", "8", "--size",
+                               "160x90", "--frames", "2", "--repeats", "1", "--reference",
+                               "--cache", cache.path("imports"), "-o", path(name)}));
+        return summaryOf(path(name));
+    };
+    const test::JsonValue seen = measured("seen", there);
+    const test::JsonValue half = measured("half seen", there + "," + away);
+    const auto runOf = [](const auto& summary) { return test::list(summary, "runs").at(0); };
+    EXPECT_EQ(number(runOf(half), "framesMeasured"), 1);
+    EXPECT_EQ(number(runOf(half), "framesJudged"), 2);
+    EXPECT_EQ(number(runOf(half), "trianglesMeasured"), number(runOf(seen), "trianglesMeasured"));
+    const auto finestOf = [](const auto& summary) { return test::list(summary, "uniform").at(0); };
+    EXPECT_EQ(number(finestOf(half), "triangles"), number(finestOf(seen), "triangles"));
+}
+
 TEST_F(Bench, RefusesAReferenceThatIsNone) {
     ASSERT_TRUE(succeeded({"synth", "mesh", "--size", "3000", "--seed", "5", "-o", path("r.ply")}));
     ASSERT_TRUE(succeeded({"import", "mesh", path("r.ply"), "-o", path("r.eym")}));
@@ -376,6 +399,27 @@ TEST_F(Bench, AFlightThatNeverSeesTheSceneIsRefused) {
     EXPECT_EQ(outcome.exit, (test::Exit{2, 0}));
     EXPECT_THAT(outcome.errors, testing::HasSubstr("away.json: no frame of the flight shows"));
     EXPECT_FALSE(std::filesystem::exists(path("none")));
+}
+
+/// Of which all is nearer to the eye than anything that is drawn.
+TEST_F(Bench, SaysThatASceneIsTooSmallToBeSeen) {
+    ASSERT_TRUE(succeeded({"synth", "mesh", "--size", "2000", "--seed", "3", "-o", path("s.ply")}));
+    folder_->write("small.json", R"({"objects":[{"mesh":"s.ply","transform":{"scale":0.0001}}]})");
+    const test::TemporaryFolder cache;
+    std::vector<std::string> arguments{"bench",     path("small.json"),
+                                       "--tau",     "1",
+                                       "--size",    "160x90",
+                                       "--frames",  "4",
+                                       "--repeats", "1",
+                                       "--cache",   cache.path("imports"),
+                                       "-o",        path("small")};
+    const test::Outcome played = eyrie(arguments);
+    EXPECT_EQ(played.exit, (test::Exit{0, 0})) << played.errors;
+    EXPECT_THAT(played.errors, testing::HasSubstr("small.json: the scene is 0."));
+    arguments.insert(arguments.end(), {"--reference", "--quiet"});
+    const test::Outcome measured = eyrie(arguments);
+    EXPECT_EQ(measured.exit, (test::Exit{1, 0})) << measured.errors;
+    EXPECT_THAT(measured.errors, testing::ContainsRegex("nothing was measured.*scale it up"));
 }
 
 TEST_F(Bench, AStillCameraIsAFlightAndEmptyFramesAreCounted) {
