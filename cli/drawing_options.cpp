@@ -28,14 +28,17 @@ std::string nameOf(TileDecoding decoding) {
 void addDrawingOptions(CLI::App& command, DrawingOptions& options) {
     command
         .add_option("--memory", options.memory,
-                    "Limit of geometry and textures that a renderer keeps on its device")
+                    "Limit of geometry and textures that a renderer keeps on its device; while "
+                    "another scene is opened, its textures of meshes come on top, up to half as "
+                    "much as a rule")
         ->type_name("BYTES[K|M|G|T]")
         ->capture_default_str();
     command
         .add_option("--host-memory", options.hostMemory,
                     "Limit of a renderer's indices of terrains, 31 bytes a tile, and of pages kept "
                     "in memory, those being read included; of tables of meshes, when they are "
-                    "opened")
+                    "opened. Beside it picks keep 16 MiB, and another scene that is being opened "
+                    "its indices")
         ->type_name("BYTES[K|M|G|T]")
         ->capture_default_str();
     command

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/local_farm.h"
 
-#include <algorithm>
 #include <thread>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/awaited_renderers.h"
 #include "cli/hardware_devices.h"
 #include "fabric/status.h"
 
@@ -49,42 +49,23 @@ absl::Status LocalFarm::check() const {
         "no renderer can work on this machine; each has said why above");
 }
 
-/// One of ours that is refused, such as for data that it cannot open, stays so until others are
-/// asked for. Those of other machines come and go.
-absl::Status LocalFarm::checkEnough(int count, std::ptrdiff_t alive,
-                                    const coordinator::Status& status) const {
-    const auto isRefused = [ours = folder_.socket("")](const coordinator::RendererStatus& one) {
-        return one.condition == coordinator::RendererCondition::Refused &&
-               one.address.starts_with(ours);
-    };
-    const auto& all = status.renderers;
-    if (alive >= count || std::ranges::count_if(all, isRefused) + alive < started_)
-        return absl::OkStatus();
-    const auto first = std::ranges::find_if(all, isRefused);
-    if (first == all.end())
-        return absl::OkStatus();
-    return {first->code, fmt::format("{} renderer can draw this: {}",
-                                     alive == 0 ? "no" : "not every", first->why)};
-}
-
 absl::Status LocalFarm::awaitRenderers(int count, std::chrono::milliseconds limit,
                                        const std::stop_token& stop) {
+    const AwaitedRenderers awaited{count, started_, folder_.socket("")};
     const auto deadline = std::chrono::steady_clock::now() + limit;
     while (true) {
         RETURN_IF_ERROR(check());
         const coordinator::Status status = frames().status();
-        const auto alive =
-            std::ranges::count_if(status.renderers, [](const auto& one) { return one.isAlive(); });
-        if (alive >= count && status.problem.empty())
+        ASSIGN_OR_RETURN(const bool there, areThere(awaited, status));
+        if (there)
             return absl::OkStatus();
-        RETURN_IF_ERROR(checkEnough(count, alive, status));
         if (stop.stop_requested())
             return absl::CancelledError("stopped");
         if (std::chrono::steady_clock::now() >= deadline)
-            return absl::DeadlineExceededError(
-                fmt::format("{} of {} renderers are there after {:.0f} s{}{}", alive, count,
-                            std::chrono::duration<double>(limit).count(),
-                            status.problem.empty() ? "" : ": ", status.problem));
+            return absl::DeadlineExceededError(fmt::format(
+                "{} of {} renderers have the scene open after {:.0f} s{}{}",
+                drawingRenderers(status), count, std::chrono::duration<double>(limit).count(),
+                status.problem.empty() ? "" : ": ", status.problem));
         std::this_thread::sleep_for(kPollInterval);
     }
 }

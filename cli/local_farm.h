@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
 #include <memory>
 #include <stop_token>
 
@@ -34,9 +33,9 @@ public:
     /// There are to be `count` renderer processes from now on, once some have been started.
     void setRenderers(int count) { renderers_->setCount(count); }
 
-    /// Waits until `count` renderers are there and frames can be had. Errors: FailedPrecondition
-    /// (none can work here, they have said why; or too few can draw this, with why),
-    /// DeadlineExceeded (with what is amiss), Cancelled.
+    /// Waits until `count` renderers have the scene open and frames can be had. Errors:
+    /// FailedPrecondition (none can work here, they have said why; or too few can draw this, with
+    /// why), DeadlineExceeded (with what is amiss), Cancelled.
     absl::Status awaitRenderers(int count, std::chrono::milliseconds limit,
                                 const std::stop_token& stop);
 
@@ -46,9 +45,6 @@ public:
 private:
     LocalFarm(TemporaryFolder folder, std::unique_ptr<coordinator::Coordinator> coordinator,
               DrawingOptions drawing);
-
-    absl::Status checkEnough(int count, std::ptrdiff_t alive,
-                             const coordinator::Status& status) const;
 
     TemporaryFolder folder_;
     const DrawingOptions drawing_;

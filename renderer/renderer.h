@@ -35,11 +35,15 @@ struct RendererOptions {
     /// Limit on the bytes of geometry and textures kept on the device. The scene's objects keep
     /// within their shares of it at all times: small ones have what all of them takes, large ones
     /// the rest in equal parts (draw/memory_shares.h). Where what a view needs does not fit, the
-    /// error rises, and the statistics say so.
+    /// error rises, and the statistics say so. While another scene is opened, the one before keeps
+    /// what it has, and what the other needs to be open comes on top: meshes' textures, half of the
+    /// limit at most unless their coarsest levels alone take more, and the coarsest tiles and
+    /// nodes.
     std::uint64_t memoryBytes = std::uint64_t{2} << 30;
     /// Limit on the bytes in host memory of terrains' indices, which are there whole, and of pages,
     /// those being loaded included; what the indices leave is shared likewise. A scene's indices
-    /// and the tables of its meshes, which are not counted else, take no more together.
+    /// and the tables of its meshes, which are not counted else, take no more together. On top of
+    /// it come pick::kRecentBytes and, while another scene is opened, that one's indices.
     std::uint64_t hostMemoryBytes = std::uint64_t{1} << 30;
     /// Threads that read and decode pages.
     int loaderThreads = 2;

@@ -60,9 +60,13 @@ double share(const FrameError& error) {
 
 }  // namespace
 
+bool hasWrongPixels(const FrameError& error) {
+    return error.falseHits != 0 ||
+           (!error.mayHaveSeams && (error.holes != 0 || error.misplaced != 0));
+}
+
 bool keepsPromise(const FrameError& error) {
-    return error.maxPixels <= allowedPixels(error) && error.holes == 0 && error.falseHits == 0 &&
-           error.misplaced == 0;
+    return error.maxPixels <= allowedPixels(error) && !hasWrongPixels(error);
 }
 
 std::vector<int> judgedFrames(const JudgedFrames& frames) {
@@ -146,7 +150,8 @@ FlightJudge::Judged FlightJudge::judge(const Frame& frame, const Expected& expec
                          lod::View(frame.camera, camera.width(), camera.height()), tauPixels,
                          remote_);
     truth::Suspects suspects{promised + kRasterPixels, {}};
-    if (drawn.statistics.complete && !isCoarser)
+    const bool isOfOneCut = drawn.statistics.complete && !isCoarser;
+    if (isOfOneCut)
         suspects.shown = [&](double x, double y, double metres) { return shown.at(x, y, metres); };
     Judged result;
     const truth::DepthComparison found =
@@ -168,7 +173,8 @@ FlightJudge::Judged FlightJudge::judge(const Frame& frame, const Expected& expec
                     .triangles = drawn.statistics.triangles + drawn.statistics.points,
                     .drawnTauPixels = tauPixels,
                     .stretch = stretched,
-                    .complete = drawn.statistics.complete};
+                    .complete = drawn.statistics.complete,
+                    .mayHaveSeams = !isOfOneCut && drawn.parts.size() > 1};
     result.picture = std::move(drawn.image);
     return result;
 }

@@ -30,6 +30,9 @@ struct FrameError {
     double drawnTauPixels = 0;  ///< at which the cut was made, in pixels of the picture
     double stretch = 1;         ///< of the picture's pixels to those asked for
     bool complete = true;       ///< no coarser data stand for some that were not loaded yet
+    /// Of several channels whose renderers may have drawn different data: these need not meet, and
+    /// what is seen between them is a hole or misplaced.
+    bool mayHaveSeams = false;
 };
 
 /// What rasterisation rounds, in pixels as they are drawn.
@@ -40,9 +43,12 @@ inline bool isEmpty(const FrameError& error) {
     return error.compared == 0 && error.holes == 0 && error.falseHits == 0 && error.misplaced == 0;
 }
 
+/// Whether away from outlines something is missing, too much, or shown before what hides it, but
+/// between channels where there may be seams.
+bool hasWrongPixels(const FrameError& error);
+
 /// Whether a frame's surface is nowhere farther off than it promises, but for the 1/256 of its own
-/// pixels that rasterisation rounds; and nothing is missing, too much, or shown before what hides
-/// it.
+/// pixels that rasterisation rounds; and it has no wrong pixels.
 bool keepsPromise(const FrameError& error);
 
 /// A frame that came closest to its promise, or broke it: worth looking at. PNG files' bytes.

@@ -141,7 +141,7 @@ std::optional<FrameError> worstBroken(const std::vector<FrameError>& frames) {
 }
 
 std::string whatIsWrong(const FrameError& error) {
-    if (error.holes != 0 || error.falseHits != 0 || error.misplaced != 0)
+    if (hasWrongPixels(error))
         return fmt::format(
             "away from outlines, {} pixels are empty where the source is, {} are drawn where it is "
             "not, {} show what is hidden in it",

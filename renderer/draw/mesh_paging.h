@@ -34,7 +34,8 @@ struct DeviceNode {
     std::vector<mesh::TriangleBlock> blocks;
 };
 
-/// Limits in bytes of what one mesh holds; they hold at all times.
+/// Limits in bytes of what one mesh holds; they hold at all times. Of scenes two are held,
+/// one within its limits, while the other is opened (RendererOptions::memoryBytes).
 struct MeshMemory {
     std::uint64_t deviceBytes = 0;
     std::uint64_t hostBytes = 0;     ///< pages in memory or being loaded

@@ -25,7 +25,8 @@
 
 namespace eyrie::draw {
 
-/// Limits in bytes of what one terrain holds; they hold at all times.
+/// Limits in bytes of what one terrain holds; they hold at all times. Of scenes two are held,
+/// one within its limits, while the other is opened (RendererOptions::memoryBytes).
 struct TerrainMemory {
     std::uint64_t deviceBytes = 0;
     std::uint64_t hostBytes = 0;  ///< pages in memory or being loaded

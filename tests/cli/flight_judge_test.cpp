@@ -179,6 +179,46 @@ TEST(FlightJudge, AFrameWithHolesIsWorseThanOneThatComesNearItsPromise) {
     EXPECT_EQ(measured->worst.at(0).error.seconds, 1);
 }
 
+/// With a hole in it, drawn by so many channels.
+FrameError judgedWithAHole(std::size_t channels, bool complete, double promisedPixels) {
+    const auto plane = LiftedPlane::source();
+    ReferenceScene scene{{{{plane, nullptr}, "plane.eyt"}},
+                         std::make_shared<truth::PlacedSurfaces>(
+                             std::vector<truth::PlacedSurface>{{plane, fabric::Mat4(1)}})};
+    const fabric::Camera there{.eye = {32, -60, 30}, .target = {32, -32, 7}, .fovYDegrees = 20};
+    FlightJudge judge(std::move(scene), fabric::Flight{{{0, there}}},
+                      {.width = 160, .height = 90, .played = 1, .judged = 1}, {});
+    LiftedPlane exact(0);
+    coordinator::FrameRequest request;
+    request.camera = there;
+    request.width = 160;
+    request.height = 90;
+    std::vector<coordinator::RenderedFrame> shown{exact.draw(request).value()};
+    shown[0].statistics.complete = complete;
+    shown[0].statistics.tauAchievedPixels = promisedPixels;
+    shown[0].parts.resize(channels);
+    for (std::size_t row = 40; row < 50; ++row)
+        std::fill_n(shown[0].image.depth.begin() + static_cast<std::ptrdiff_t>(row * 160 + 75), 10,
+                    0.0F);
+    const auto measured = judge.judge(std::move(shown), exact, request, [] {}, {});
+    EXPECT_TRUE(measured.ok()) << measured.status();
+    return measured.ok() ? measured->frames.at(0) : FrameError{};
+}
+
+TEST(FlightJudge, HolesBreakNoPromiseBetweenChannelsOfDifferentDataAlone) {
+    for (const FrameError& seams :
+         {judgedWithAHole(2, false, 1), judgedWithAHole(2, true, 2)}) {  // tau was raised to 2
+        EXPECT_EQ(seams.holes, 100U) << "they are told";
+        EXPECT_TRUE(keepsPromise(seams));
+        FrameError drawnBeside = seams;
+        drawnBeside.falseHits = 1;
+        EXPECT_FALSE(keepsPromise(drawnBeside));
+    }
+    EXPECT_FALSE(keepsPromise(judgedWithAHole(2, true, 1)));
+    EXPECT_FALSE(keepsPromise(judgedWithAHole(1, false, 1)));
+    EXPECT_FALSE(keepsPromise(judgedWithAHole(1, true, 2)));
+}
+
 /// Tells at which tau it was asked for pictures.
 class TauPictures final : public PictureSource {
 public:
