@@ -47,7 +47,7 @@ export function keyList(
 ): HTMLElement {
   const rows = make("div", "flight-keys");
   rows.setAttribute("role", "group");
-  rows.ariaLabel = "Keys";
+  rows.setAttribute("aria-label", "Keys");
   const note = make("p", "note");
   const keysNow = (): readonly FlightKey[] => deck.flight.value.keys;
 
@@ -86,10 +86,11 @@ export function keyList(
     });
     const fill = (key: FlightKey, name: string): void => {
       seconds.value = seconds.defaultValue = String(Number(key.seconds.toFixed(3)));
-      seconds.ariaLabel = `Seconds of ${name}`;
-      show.ariaLabel = show.title = `Show ${name}`;
-      replace.ariaLabel = replace.title = `Let ${name} show what is seen now`;
-      remove.ariaLabel = remove.title = `Remove ${name}`;
+      seconds.setAttribute("aria-label", `Seconds of ${name}`);
+      show.title = `Show ${name}`;
+      replace.title = `Let ${name} show what is seen now`;
+      remove.title = `Remove ${name}`;
+      for (const one of [show, replace, remove]) one.setAttribute("aria-label", one.title);
     };
     return { element: make("div", "flight-key", seconds, show, replace, remove), remove, fill };
   };

@@ -79,7 +79,7 @@ export function showPick(state: State): void {
   const close = make("button", "pick-close", "×");
   close.type = "button";
   close.title = "Close (Esc)";
-  close.ariaLabel = "Close";
+  close.setAttribute("aria-label", "Close");
   close.addEventListener("click", () => state.pick.set(null));
   card.append(make("div", "pick-head", title, close), list);
 
