@@ -41,6 +41,7 @@ export class Questions {
     sequence: number;
     answered: (answer: ViewerProfiled | undefined) => void;
   } | null = null;
+  private readonly unwatch: readonly (() => void)[];
 
   constructor(
     private readonly socket: Pick<Socket, "pick" | "profile">,
@@ -48,17 +49,24 @@ export class Questions {
     /** Turns the camera to a point. */
     private readonly turn: (to: Vec3) => void,
   ) {
-    // Where heights are drawn otherwise, measured points lie elsewhere.
-    state.shown.watch((shown) => {
-      const [first] = state.measured.value;
-      if (first !== undefined && first.exaggeration !== shown?.exaggeration) state.measured.set([]);
-    });
-    state.measuring.watch(() => (this.waiting = []));
-    state.pick.watch((pick) => {
-      if (pick !== null) return;
-      this.asked = null;
-      this.waiting = [];
-    });
+    this.unwatch = [
+      // Where heights are drawn otherwise, measured points lie elsewhere.
+      state.shown.watch((shown) => {
+        const [first] = state.measured.value;
+        if (first !== undefined && first.exaggeration !== shown?.exaggeration)
+          state.measured.set([]);
+      }),
+      state.measuring.watch(() => (this.waiting = [])),
+      state.pick.watch((pick) => {
+        if (pick !== null) return;
+        this.asked = null;
+        this.waiting = [];
+      }),
+    ];
+  }
+
+  close(): void {
+    for (const end of this.unwatch) end();
   }
 
   private get hidden(): readonly number[] {
