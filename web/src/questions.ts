@@ -14,6 +14,8 @@ const profileSamples = 160;
 /** A double click's own clicks are no farther from it, in CSS pixels. */
 const doubleClickSlack = 8;
 
+const cannotAsk = { kind: "problem", text: "The server cannot be asked now" } as const;
+
 /** What was clicked at, of the picture that was seen then. */
 interface Click {
   at: Point;
@@ -94,7 +96,7 @@ export class Questions {
     const sequence = this.pickSequence + 1;
     if (!this.socket.pick(sequence, click.shown, click.place)) {
       this.waiting = [];
-      this.state.pick.set({ kind: "problem", text: "The server cannot be asked now" });
+      this.state.pick.set(cannotAsk);
       return false;
     }
     this.pickSequence = sequence;
@@ -164,7 +166,8 @@ export class Questions {
   profile(from: Vec3, to: Vec3): void {
     this.groundAnswered(undefined); // the server answers the newest only
     const sequence = this.profileSequence + 1;
-    if (!this.socket.profile(sequence, from, to, profileSamples, this.hidden)) return;
+    if (!this.socket.profile(sequence, from, to, profileSamples, this.hidden))
+      return this.state.profile.set(cannotAsk);
     this.profileSequence = sequence;
     this.state.profile.set({ kind: "asking", from, to });
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a click found: a mark on the picture, and a card that says where that is and how surely.
+import { isSheetOpen, isText } from "../camera/typing";
 import { appearance } from "../pick";
 import type { Shown } from "../protocol/messages";
 import type { Pick, PickedPoint, State } from "../state";
@@ -107,6 +108,6 @@ export function showPick(state: State): void {
   });
   state.shown.watch(placeMark);
   window.addEventListener("keydown", (event) => {
-    if (event.key === "Escape") state.pick.set(null);
+    if (event.key === "Escape" && !isSheetOpen() && !isText(event.target)) state.pick.set(null);
   });
 }
