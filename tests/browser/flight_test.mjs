@@ -109,9 +109,12 @@ await run("flight_test", async (browser, started) => {
   await browser.settled();
   const east = await camera();
   const before = (await savedFlight()).keys.length;
-  await page.getByLabel("Let key 2 show what is seen now", { exact: true }).click();
+  const focused = () => page.evaluate(() => document.activeElement.getAttribute("aria-label"));
+  await page.getByLabel("Let key 2 show what is seen now", { exact: true }).press("Enter");
+  check((await focused()) === "Let key 2 show what is seen now", "a key's button keeps the focus");
   await page.getByLabel("Seconds of key 1", { exact: true }).fill("-1.5");
-  await page.getByLabel("Seconds of key 1", { exact: true }).press("Enter");
+  await page.getByLabel("Seconds of key 1", { exact: true }).press("Tab");
+  check((await focused()) === "Show key 1", "and Tab goes on from the time that was typed in");
   let edited = await savedFlight();
   check(
     edited.keys[0].seconds === -1.5 && apart(edited.keys[1].camera.eye, east.eye) < 1e-9,

@@ -173,12 +173,18 @@ await run("page_test", async (browser, started) => {
   await page.keyboard.press("r");
   await browser.settled();
 
+  await page.mouse.click(480, 420);
+  await page.locator("#pick", { hasText: "hill" }).waitFor();
   await page.keyboard.press("h");
   check(await page.locator("#help").isVisible(), "H opens the sheet of controls");
   await page.keyboard.press("Escape");
-
-  await page.mouse.click(480, 420);
-  await page.locator("#pick", { hasText: "hill" }).waitFor();
+  await page.locator("#help").waitFor({ state: "hidden" });
+  await page.getByLabel("Name of the bookmark").press("Escape");
+  check(
+    await page.locator("#pick").isVisible(),
+    "which Escape closes and nothing beside it, as in a text it closes nothing",
+  );
+  await page.locator("canvas#view").focus();
   server.say("no renderer");
   await page.locator("#banner", { hasText: "No renderer" }).waitFor();
   check(true, "a lost renderer is said so above the last picture");

@@ -204,6 +204,7 @@ await run("tools_test", async (browser, started) => {
   await page.getByLabel("Name of the bookmark").fill("");
   check(atTau === "0.25", "and the slider has moved");
 
+  await page.getByLabel("Edited").check();
   await page.locator("#flight summary").first().click();
   await page.keyboard.press("n");
   await page.getByText("Keys (1)").click();

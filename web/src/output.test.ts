@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
 import { isPacked, misreadOutput, outputOf, queryOf, usualOutput } from "./output";
 
 describe("the picture that an address names", () => {
   it("is the first canvas where nothing is said", () => {
     expect(outputOf("")).toEqual(usualOutput);
     expect(queryOf(usualOutput)).toBe("");
+  });
+
+  it("is the first in browsers that do not say how many fields a query has, too", () => {
+    const size = vi.spyOn(URLSearchParams.prototype, "size", "get");
+    size.mockReturnValue(undefined as never);
+    expect(queryOf(usualOutput)).toBe("");
+    size.mockRestore();
   });
 
   it("comes back from its own query, whatever the names", () => {

@@ -57,5 +57,6 @@ export function queryOf(output: Output, before = ""): string {
     if (value === "") fields.delete(name);
     else fields.set(name, value as string);
   }
-  return fields.size === 0 ? "" : `?${fields.toString()}`;
+  const text = fields.toString(); // its size is not known before Chrome 113 and Safari 17
+  return text === "" ? "" : `?${text}`;
 }

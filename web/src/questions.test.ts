@@ -101,6 +101,15 @@ describe("Questions", () => {
     expect(points()).toEqual([2]);
   });
 
+  it("that cannot be asked are said not to be", () => {
+    const state = new State();
+    const socket = { pick: () => false, profile: () => false };
+    const questions = new Questions(socket, state, () => {});
+    questions.profile([0, 0, 0], [1, 0, 0]);
+    const text = "The server cannot be asked now";
+    expect(state.profile.value).toEqual({ kind: "problem", text });
+  });
+
   it("of a double click measure nothing, whenever they are answered", () => {
     for (const answersBetween of [0, 1, 2]) {
       const { show, click, answer, points, turnedTo } = measuring();

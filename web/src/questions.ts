@@ -14,6 +14,8 @@ const profileSamples = 160;
 /** A double click's own clicks are no farther from it, in CSS pixels. */
 const doubleClickSlack = 8;
 
+const cannotAsk = { kind: "problem", text: "The server cannot be asked now" } as const;
+
 /** What was clicked at, of the picture that was seen then. */
 interface Click {
   at: Point;
@@ -41,6 +43,7 @@ export class Questions {
     sequence: number;
     answered: (answer: ViewerProfiled | undefined) => void;
   } | null = null;
+  private readonly unwatch: readonly (() => void)[];
 
   constructor(
     private readonly socket: Pick<Socket, "pick" | "profile">,
@@ -48,17 +51,24 @@ export class Questions {
     /** Turns the camera to a point. */
     private readonly turn: (to: Vec3) => void,
   ) {
-    // Where heights are drawn otherwise, measured points lie elsewhere.
-    state.shown.watch((shown) => {
-      const [first] = state.measured.value;
-      if (first !== undefined && first.exaggeration !== shown?.exaggeration) state.measured.set([]);
-    });
-    state.measuring.watch(() => (this.waiting = []));
-    state.pick.watch((pick) => {
-      if (pick !== null) return;
-      this.asked = null;
-      this.waiting = [];
-    });
+    this.unwatch = [
+      // Where heights are drawn otherwise, measured points lie elsewhere.
+      state.shown.watch((shown) => {
+        const [first] = state.measured.value;
+        if (first !== undefined && first.exaggeration !== shown?.exaggeration)
+          state.measured.set([]);
+      }),
+      state.measuring.watch(() => (this.waiting = [])),
+      state.pick.watch((pick) => {
+        if (pick !== null) return;
+        this.asked = null;
+        this.waiting = [];
+      }),
+    ];
+  }
+
+  close(): void {
+    for (const end of this.unwatch) end();
   }
 
   private get hidden(): readonly number[] {
@@ -86,7 +96,7 @@ export class Questions {
     const sequence = this.pickSequence + 1;
     if (!this.socket.pick(sequence, click.shown, click.place)) {
       this.waiting = [];
-      this.state.pick.set({ kind: "problem", text: "The server cannot be asked now" });
+      this.state.pick.set(cannotAsk);
       return false;
     }
     this.pickSequence = sequence;
@@ -156,7 +166,8 @@ export class Questions {
   profile(from: Vec3, to: Vec3): void {
     this.groundAnswered(undefined); // the server answers the newest only
     const sequence = this.profileSequence + 1;
-    if (!this.socket.profile(sequence, from, to, profileSamples, this.hidden)) return;
+    if (!this.socket.profile(sequence, from, to, profileSamples, this.hidden))
+      return this.state.profile.set(cannotAsk);
     this.profileSequence = sequence;
     this.state.profile.set({ kind: "asking", from, to });
   }

@@ -26,12 +26,14 @@ export function applySettings(state: State, settings: Settings): void {
 
 /**
  * Calls `changed` with each change; `settled` once everybody has heard of it, and those that come
- * with it are made.
+ * with it are made. Returns how to end that.
  */
-export function watchSettings(state: State, changed: () => void, settled: () => void): void {
-  for (const value of [state.tau, state.budget, state.shading, state.look])
+export function watchSettings(state: State, changed: () => void, settled: () => void): () => void {
+  const ends = [state.tau, state.budget, state.shading, state.look].map((value) =>
     value.watch(() => {
       changed();
       queueMicrotask(settled);
-    });
+    }),
+  );
+  return () => ends.forEach((end) => end());
 }

@@ -55,6 +55,7 @@ export class Steering implements CameraHolder {
   private flown: Camera | null = null;
   /** Hands steer on from a flight under ground, and have not come out of it. */
   private staysUnderground = false;
+  private readonly unwatch: readonly (() => void)[];
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -74,11 +75,14 @@ export class Steering implements CameraHolder {
         );
       },
     });
-    state.walking.watch((isWalking) => this.walkingChanged(isWalking));
-    this.keepWalkerOnGround();
+    this.unwatch = [
+      state.walking.watch((isWalking) => this.walkingChanged(isWalking)),
+      this.keepWalkerOnGround(),
+    ];
   }
 
   close(): void {
+    for (const end of this.unwatch) end();
     this.controls.close();
   }
 
@@ -136,10 +140,11 @@ export class Steering implements CameraHolder {
     this.camera = seenFrom(this.camera, add(this.camera.eye, this.lift));
   }
 
-  private keepWalkerOnGround(): void {
+  /** Returns how to end that. */
+  private keepWalkerOnGround(): () => void {
     const { look } = this.state;
     let [exaggeration, hidden] = [look.value.exaggeration, look.value.hidden];
-    look.watch((now) => {
+    return look.watch((now) => {
       const isSame = now.exaggeration === exaggeration && now.hidden === hidden;
       ({ exaggeration, hidden } = now);
       if (!isSame) this.walker.groundChanged();

@@ -48,10 +48,13 @@ export class Viewer {
   private readonly sender = new ViewSender({
     wantedView: () => this.wantedView(),
     sendView: (view) => this.socket.sendView(view),
-    isConnected: () => this.state.connection.value.kind === "connected",
+    isConnected: () => !this.isClosed && this.state.connection.value.kind === "connected",
   });
   readonly arrivals: Arrivals;
   private readonly ticker: number;
+  /** How to hear no more of the state, which may outlast this viewer. */
+  private readonly unwatch: readonly (() => void)[];
+  private isClosed = false;
 
   /** The picture on the canvas as the server's PNG, while it is exact. */
   private exactPicture: Blob | undefined;
@@ -124,22 +127,27 @@ export class Viewer {
       isNewest: (sequence) => this.sender.isNewest(sequence),
       canvasSize: () => this.canvas.size(),
     });
-    state.shown.watch((shown) => this.canvas.setFilled(shown?.isPacked === true));
-    watchSettings(
-      state,
-      () => this.sender.request(performance.now()),
-      () => this.keepLed(),
-    );
-    state.output.watch(() => {
-      this.sender.request(performance.now());
-      this.sendScreen();
-    });
+    this.unwatch = [
+      state.shown.watch((shown) => this.canvas.setFilled(shown?.isPacked === true)),
+      watchSettings(
+        state,
+        () => this.sender.request(performance.now()),
+        () => this.keepLed(),
+      ),
+      state.output.watch(() => {
+        this.sender.request(performance.now());
+        this.sendScreen();
+      }),
+    ];
     this.ticker = window.setInterval(() => this.tick(), 250);
     void canShowVideo().then((can) => this.setVideo(can));
   }
 
   close(): void {
+    this.isClosed = true;
     window.clearInterval(this.ticker);
+    for (const end of this.unwatch) end();
+    this.questions.close();
     this.steering.close();
     this.socket.close();
     this.canvas.close();

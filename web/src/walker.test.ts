@@ -127,6 +127,15 @@ describe("A walk", () => {
     expect(cameras.length).toBe(1);
   });
 
+  it("from above a map looks to what is up in it", async () => {
+    const { walker, last } = walking();
+    walker.begin({ ...above, eye: [0, 0, 400], up: [0, 1, 0] });
+    await Promise.resolve();
+    const [x, y] = last().target;
+    expect(x).toBeCloseTo(0, 9);
+    expect(y).toBeCloseTo(10 * usualEyeHeight, 9);
+  });
+
   it("does not take it that there is none where nobody answers", () => {
     const failures: boolean[] = [];
     const walker = new Walker({

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Walks: asks for the ground ahead, in the data at their finest, and moves the eye over it.
 import type { Camera, Vec3 } from "./camera/camera";
-import { headingOf, subtract } from "./camera/camera";
+import { headingOfView, worldUp } from "./camera/camera";
 import type { Keys } from "./camera/fly";
 import type { Ground } from "./camera/walk";
 import { eyeHeightBy, groundAt, seenFrom, stepOf, usualEyeHeight } from "./camera/walk";
@@ -24,8 +24,8 @@ const heightsAhead = 24;
 const leastLeft = 0.6;
 
 /** Level, of length 1. */
-function aheadOf({ eye, target }: Pick<Camera, "eye" | "target">): Vec3 {
-  const { azimuth } = headingOf(subtract(target, eye));
+function aheadOf(camera: Camera): Vec3 {
+  const { azimuth } = headingOfView(camera);
   return [Math.cos(azimuth), Math.sin(azimuth), 0];
 }
 
@@ -40,14 +40,15 @@ export class Walker {
   constructor(private readonly events: WalkerEvents) {}
 
   /** Stands where the view looks at, looking level the same way; once the ground is known there. */
-  begin({ eye, target, ...rest }: Camera): void {
+  begin(camera: Camera): void {
     this.eyeHeight = usualEyeHeight;
     this.end();
-    const ahead = aheadOf({ eye, target });
+    const { target } = camera;
+    const ahead = aheadOf(camera);
     const reach = 10 * this.eyeHeight;
     const there: Camera = {
-      ...rest,
-      up: [0, 0, 1],
+      ...camera,
+      up: worldUp,
       eye: target,
       target: [target[0] + reach * ahead[0], target[1] + reach * ahead[1], target[2]],
     };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import type { Camera, Vec3 } from "./camera";
-import { axesOf, distance, dot, isUsable, length, subtract } from "./camera";
+import { axesOf, distance, dot, isUsable, length, project as shareOf, subtract } from "./camera";
 import { fly, flyDirection, look } from "./fly";
 import { distanceLimits, orbit, pan, zoom } from "./orbit";
 import type { Bounds } from "./standard";
@@ -14,18 +14,31 @@ const height = 720;
 
 /** Where a world point appears, in pixels from the centre, y downwards. */
 function project(by: Camera, point: Vec3): { x: number; y: number } {
-  const { right, up, forward } = axesOf(by);
-  const offset = subtract(point, by.eye);
-  const focal = height / (2 * Math.tan((by.fovyDegrees * Math.PI) / 360));
-  const depth = dot(offset, forward);
-  return { x: (dot(offset, right) / depth) * focal, y: (-dot(offset, up) / depth) * focal };
+  const [x, y] = shareOf(by, point, 1) ?? [NaN, NaN];
+  return { x: (x - 0.5) * height, y: (y - 0.5) * height };
 }
+
+/** Links, flights with roll and programs bring such; a map's is from above, with north up. */
+const map: Camera = { ...camera, eye: [0, 0, 10], up: [0, 1, 0] };
+const cameras = [
+  camera,
+  map,
+  { ...camera, up: [1, 0, 0] },
+  { ...camera, up: [1, -2, -3] },
+] as const;
 
 describe("orbit", () => {
   it("keeps the distance and the target", () => {
     const turned = orbit(camera, 0.7, -0.3);
     expect(distance(turned)).toBeCloseTo(distance(camera), 9);
     expect(turned.target).toEqual(camera.target);
+  });
+
+  it("keeps a map's north up as it leaves it", () => {
+    const turned = orbit(map, 0, -0.3);
+    expect(turned.up).toEqual([0, 0, 1]);
+    expect(axesOf(turned).right[0]).toBeCloseTo(1, 9);
+    expect(turned.eye[1]).toBeCloseTo(-10 * Math.sin(0.3), 9);
   });
 
   it("comes back after a full turn", () => {
@@ -45,25 +58,39 @@ describe("orbit", () => {
 });
 
 describe("pan", () => {
-  it("keeps the target under the pointer", () => {
-    const moved = pan(camera, 30, -20, height);
-    const seen = project(moved, camera.target);
+  it.each(cameras)("keeps the target under the pointer, up as it may be ($up)", (by) => {
+    const moved = pan(by, 30, -20, height);
+    const seen = project(moved, by.target);
     expect(seen.x).toBeCloseTo(30, 6);
     expect(seen.y).toBeCloseTo(-20, 6);
+    expect(moved.up).toEqual(by.up);
+  });
+
+  it("moves a map east where it is drawn to the west", () => {
+    const { eye } = pan(map, -100, 0, height);
+    expect(eye[0]).toBeGreaterThan(1);
+    expect(eye[1]).toBeCloseTo(0, 9);
   });
 });
 
 describe("zoom", () => {
-  it("keeps what is under the pointer there", () => {
-    const point = pan(camera, -200, -100, height).target; // shows at (200, 100)
-    expect(project(camera, point).x).toBeCloseTo(200, 6);
+  it.each(cameras)("keeps what is under the pointer there, up as it may be ($up)", (by) => {
+    const point = pan(by, -200, -100, height).target; // shows at (200, 100)
+    expect(project(by, point).x).toBeCloseTo(200, 6);
     for (const factor of [0.5, 0.9, 1.1, 1.8]) {
-      const zoomed = zoom(camera, factor, 200, 100, height, limits);
+      const zoomed = zoom(by, factor, 200, 100, height, limits);
       const seen = project(zoomed, point);
       expect(seen.x).toBeCloseTo(200, 6);
       expect(seen.y).toBeCloseTo(100, 6);
-      expect(distance(zoomed)).toBeCloseTo(distance(camera) * factor, 6);
+      expect(distance(zoomed)).toBeCloseTo(distance(by) * factor, 6);
     }
+  });
+
+  it("out from beyond the largest distance stays there, and comes back from it", () => {
+    const far: Camera = { ...camera, eye: [0, -3 * limits.max, 0] };
+    const out = zoom(far, 1.2, 100, 50, height, limits);
+    expect(length(subtract(out.eye, far.eye))).toBeLessThan(1e-9 * limits.max);
+    expect(distance(zoom(far, 0.9, 100, 50, height, limits))).toBeCloseTo(2.7 * limits.max, 6);
   });
 
   it("goes on ahead at the smallest distance, and stops at the largest", () => {
@@ -98,6 +125,10 @@ describe("fly", () => {
     expect(length(subtract(moved.eye, camera.eye))).toBeLessThan(distance(camera) * 0.21);
   });
 
+  it("stands upright once it looks around", () => {
+    for (const by of cameras) expect(look(by, 0.1, 0.1).up).toEqual([0, 0, 1]);
+  });
+
   it("looks around without moving the eye, and never over a pole", () => {
     const turned = look(camera, 0.4, 9);
     expect(turned.eye).toEqual(camera.eye);
@@ -113,7 +144,7 @@ describe("any sequence of moves", () => {
       seed = (seed * 1103515245 + 12345) % 2147483648;
       return seed / 2147483648 - 0.5;
     };
-    let moved = camera;
+    let moved: Camera = map;
     for (let i = 0; i < 5000; ++i) {
       const pick = Math.floor((random() + 0.5) * 5);
       if (pick === 0) moved = orbit(moved, random() * 4, random() * 4);

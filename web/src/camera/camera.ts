@@ -19,6 +19,9 @@ export interface Axes {
   forward: Vec3;
 }
 
+/** Up in the picture, once hands have turned the view. */
+export const worldUp: Vec3 = [0, 0, 1];
+
 /** How near the view direction may come to straight up or down, in radians. */
 export const poleMargin = 0.01;
 
@@ -62,11 +65,19 @@ export function directionOf({ azimuth, elevation }: Heading): Vec3 {
   return [Math.cos(e) * Math.cos(azimuth), Math.cos(e) * Math.sin(azimuth), Math.sin(e)];
 }
 
+/** As the picture lies, whatever is up in it. */
 export function axesOf(camera: Camera): Axes {
-  const forward = directionOf(headingOf(subtract(camera.target, camera.eye)));
-  const sideways = cross(forward, [0, 0, 1]);
-  const right = scale(sideways, 1 / length(sideways));
+  const forward = unit(subtract(camera.target, camera.eye));
+  const right = unit(cross(forward, camera.up));
   return { right, up: cross(right, forward), forward };
+}
+
+/** Where a camera looks; straight up or down, by what is up in the picture, as maps have north. */
+export function headingOfView(camera: Camera): Heading {
+  const { right, forward } = axesOf(camera);
+  const { azimuth, elevation } = headingOf(forward);
+  const isAtPole = Math.abs(elevation) > Math.PI / 2 - poleMargin;
+  return { azimuth: isAtPole ? headingOf(right).azimuth + Math.PI / 2 : azimuth, elevation };
 }
 
 /** World metres that one pixel spans at the target, for a picture of `heightPixels`. */
@@ -75,12 +86,11 @@ export function metresPerPixel(camera: Camera, heightPixels: number): number {
   return (2 * distance(camera) * Math.tan(halfFov)) / Math.max(1, heightPixels);
 }
 
-/** A world point from the eye: x right, y up, -z ahead, as the camera is rolled, unlike axesOf. */
+/** A world point from the eye: x right, y up, -z ahead. */
 export function againstAxes(camera: Camera, point: Vec3): Vec3 {
-  const forward = unit(subtract(camera.target, camera.eye));
-  const right = unit(cross(forward, camera.up));
+  const { right, up, forward } = axesOf(camera);
   const offset = subtract(point, camera.eye);
-  return [dot(offset, right), dot(offset, cross(right, forward)), -dot(offset, forward)];
+  return [dot(offset, right), dot(offset, up), -dot(offset, forward)];
 }
 
 /**

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // From pointer, wheel and keys to a camera. The geometry is in orbit.ts, fly.ts and touch.ts.
 import type { Camera } from "./camera";
-import { isCommand } from "./commands";
-import { isScrolled, isText, isTyping } from "./typing";
+import { isCommand, letterOf } from "./commands";
+import { isScrolled, isSheetOpen, isText, isTyping } from "./typing";
 import type { Keys } from "./fly";
 import { fly, isFlyKey, look } from "./fly";
 import type { DistanceLimits } from "./orbit";
@@ -217,14 +217,14 @@ export class Controls {
   private keyDown(event: KeyboardEvent): void {
     this.isFast = event.shiftKey;
     if (event.ctrlKey || event.metaKey || event.altKey || isText(event.target)) return;
-    if (isFlyKey(event.code) && !isCommand(event.key)) this.flyKeyDown(event);
+    if (isFlyKey(event.code) && !isCommand(letterOf(event))) this.flyKeyDown(event);
     else if (this.otherKeyDown(event)) event.preventDefault();
   }
 
   /** True for a key that means something here. */
   private otherKeyDown(event: KeyboardEvent): boolean {
     const time = event.timeStamp;
-    switch (event.key) {
+    switch (letterOf(event)) {
       case "r":
       case "R":
         this.holder.goHome(time);
@@ -238,6 +238,7 @@ export class Controls {
         if (!event.repeat) this.holder.setWalking(!this.holder.isWalking);
         return true;
       case "Escape":
+        if (isSheetOpen()) return false;
         this.holder.setFlying(false);
         this.holder.setWalking(false);
         return false;
@@ -277,6 +278,8 @@ export class Controls {
   private keyUp(event: KeyboardEvent): void {
     this.isFast = event.shiftKey;
     this.keys.delete(event.code);
+    // macOS does not tell which keys go up while Cmd is down.
+    if (event.key === "Meta") this.keys.clear();
   }
 
   private releaseKeys(): void {

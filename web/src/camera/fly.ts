@@ -5,11 +5,11 @@ import {
   axesOf,
   directionOf,
   distance,
-  headingOf,
+  headingOfView,
   length,
   scale,
-  subtract,
   translate,
+  worldUp,
 } from "./camera";
 
 /** Keys held down, as KeyboardEvent.code. */
@@ -56,12 +56,16 @@ export function fly(camera: Camera, keys: Keys, fast: boolean, seconds: number):
   return translate(camera, scale(flyDirection(camera, keys), step));
 }
 
-/** Turns the view about the eye, in radians; positive looks left and up. */
+/**
+ * Turns the view about the eye, in radians; positive looks left and up. A view that was rolled
+ * stands upright from then on.
+ */
 export function look(camera: Camera, azimuth: number, elevation: number): Camera {
-  const ahead = headingOf(subtract(camera.target, camera.eye));
+  const ahead = headingOfView(camera);
   const direction = directionOf({
     azimuth: ahead.azimuth + azimuth,
     elevation: ahead.elevation + elevation,
   });
-  return { ...camera, target: add(camera.eye, scale(direction, distance(camera))) };
+  const target = add(camera.eye, scale(direction, distance(camera)));
+  return { ...camera, target, up: worldUp };
 }

@@ -6,11 +6,12 @@ import {
   clamp,
   directionOf,
   distance,
-  headingOf,
+  headingOfView,
   metresPerPixel,
   scale,
   subtract,
   translate,
+  worldUp,
 } from "./camera";
 
 /** How near and far the eye may be from the target, in metres. */
@@ -19,14 +20,18 @@ export interface DistanceLimits {
   max: number;
 }
 
-/** Turns the eye about the target, in radians; positive moves it anticlockwise and upwards. */
+/**
+ * Turns the eye about the target, in radians; positive moves it anticlockwise and upwards. A view
+ * that was rolled stands upright from then on.
+ */
 export function orbit(camera: Camera, azimuth: number, elevation: number): Camera {
-  const back = headingOf(subtract(camera.eye, camera.target));
+  const ahead = headingOfView(camera);
   const direction = directionOf({
-    azimuth: back.azimuth + azimuth,
-    elevation: back.elevation + elevation,
+    azimuth: ahead.azimuth + azimuth,
+    elevation: ahead.elevation - elevation,
   });
-  return { ...camera, eye: add(camera.target, scale(direction, distance(camera))) };
+  const eye = subtract(camera.target, scale(direction, distance(camera)));
+  return { ...camera, eye, up: worldUp };
 }
 
 /** Looks at a point from where the eye is; what follows turns about it. */
@@ -59,7 +64,8 @@ export function zoom(
   limits: DistanceLimits,
 ): Camera {
   const before = distance(camera);
-  const wanted = Math.min(before * factor, limits.max);
+  // Links and programs may have led beyond the limit: from there it goes no farther.
+  const wanted = Math.min(before * factor, Math.max(limits.max, before));
   const after = Math.max(wanted, limits.min);
   const { right, up, forward } = axesOf(camera);
   const metres = metresPerPixel(camera, heightPixels);

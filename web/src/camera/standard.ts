@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Views of a whole scene from where maps and drawings show things.
 import type { Camera, Vec3 } from "./camera";
-import { add, axesOf, directionOf, dot, headingOf, scale, subtract } from "./camera";
+import { add, axesOf, directionOf, dot, headingOfView, scale, subtract, worldUp } from "./camera";
 
 export interface Bounds {
   min: Vec3;
@@ -30,9 +30,9 @@ export const standardViews: readonly StandardView[] = [
 ];
 
 /** From where a camera sees what it looks at. */
-export function directionOfView({ eye, target }: Camera): Direction {
-  const { azimuth, elevation } = headingOf(subtract(eye, target));
-  return { azimuth: (azimuth * 180) / Math.PI, elevation: (elevation * 180) / Math.PI };
+export function directionOfView(camera: Camera): Direction {
+  const { azimuth, elevation } = headingOfView(camera);
+  return { azimuth: (azimuth * 180) / Math.PI + 180, elevation: (-elevation * 180) / Math.PI };
 }
 
 /** A little of the picture is left around the scene. */
@@ -48,7 +48,7 @@ export function standardCamera(
   const radians = Math.PI / 180;
   const away = directionOf({ azimuth: azimuth * radians, elevation: elevation * radians });
   const target = scale(add(min, max), 0.5);
-  const probe: Camera = { eye: add(target, away), target, up: [0, 0, 1], fovyDegrees };
+  const probe: Camera = { eye: add(target, away), target, up: worldUp, fovyDegrees };
   const { right, up, forward } = axesOf(probe);
   const tangent = Math.tan((fovyDegrees * radians) / 2);
   let distance = 1e-9;

@@ -10,6 +10,9 @@ const textInput = `input:not(${pressedInputs.map((type) => `[type=${type}]`).joi
 export const isText = (target: EventTarget | null): boolean =>
   isIn(target, `${textInput}, select, textarea, [contenteditable]`);
 
+/** A sheet is open: Esc closes that, and nothing beside it. */
+export const isSheetOpen = (): boolean => document.querySelector("dialog[open]") !== null;
+
 /** What the space bar presses. */
 export const isPressed = (target: EventTarget | null): boolean =>
   isIn(target, "button, summary, input, a");

@@ -2,7 +2,7 @@
 // A walk on the ground: the eye stays at its height above it, and goes only where the ground is
 // known.
 import type { Camera, Vec3 } from "./camera";
-import { clamp, headingOf, subtract, translate } from "./camera";
+import { clamp, headingOfView, subtract, translate, worldUp } from "./camera";
 import type { Keys } from "./fly";
 import { flyDirection } from "./fly";
 
@@ -55,11 +55,12 @@ export function stepOf(
   seconds: number,
   eyeHeight: number,
 ): readonly [number, number] {
-  const { azimuth } = headingOf(subtract(camera.target, camera.eye));
+  const { azimuth } = headingOfView(camera);
   const level: Camera = {
     ...camera,
     eye: [0, 0, 0],
     target: [Math.cos(azimuth), Math.sin(azimuth), 0],
+    up: worldUp,
   };
   const onGround = new Set([...keys].filter((key) => key !== "KeyE" && key !== "KeyQ"));
   const [x, y] = flyDirection(level, onGround);

@@ -11,12 +11,16 @@ export async function copyText(text: string): Promise<boolean> {
 }
 
 function copyBySelecting(text: string): boolean {
+  const focused = document.activeElement;
   const area = document.createElement("textarea");
   area.value = text;
-  document.body.append(area);
+  // Nothing beside an open sheet can be selected, and yet browsers say that it was copied.
+  (document.querySelector("dialog[open]") ?? document.body).append(area);
+  area.focus({ preventScroll: true });
   area.select();
-  const isCopied = document.execCommand("copy");
+  const isCopied = document.activeElement === area && document.execCommand("copy");
   area.remove();
+  if (focused instanceof HTMLElement) focused.focus({ preventScroll: true });
   return isCopied;
 }
 

@@ -222,7 +222,7 @@ export function showEqualizers(state: State): void {
   details.title = "The compounds of the configuration, and their equalizers; for everybody";
   const tree = make("ul", "compounds");
   tree.id = "compounds";
-  tree.ariaLabel = "Compounds";
+  tree.setAttribute("aria-label", "Compounds");
   const problem = make("p", "note");
   problem.setAttribute("role", "status");
   details.append(tree, problem);

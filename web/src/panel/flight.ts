@@ -74,7 +74,8 @@ function keptFlights(deck: FlightDeck, state: State): HTMLElement {
   name.type = "text";
   name.id = "flight-name";
   name.maxLength = 80;
-  name.placeholder = name.ariaLabel = "Name of the flight";
+  name.placeholder = "Name of the flight";
+  name.setAttribute("aria-label", name.placeholder);
   const update = (): void => {
     for (const load of list.querySelectorAll<HTMLButtonElement>(".bookmark > :first-child"))
       mayLoad(deck, load, `Load ${load.textContent}`);
@@ -87,7 +88,7 @@ function keptFlights(deck: FlightDeck, state: State): HTMLElement {
         fill();
         name.focus();
       });
-      remove.ariaLabel = remove.title;
+      remove.setAttribute("aria-label", remove.title);
       return make("li", "bookmark", load, remove);
     });
     list.replaceChildren(...rows);
@@ -199,7 +200,8 @@ function pictures(deck: FlightDeck, state: State): HTMLElement {
   rate.value = String(usualRate);
   const label = make("label", "label", "Per second");
   label.htmlFor = rate.id;
-  label.title = rate.ariaLabel = "Pictures a second";
+  label.title = "Pictures a second";
+  rate.setAttribute("aria-label", label.title);
   const draw = async (): Promise<void> => {
     const framesPerSecond = Number(rate.value);
     if (deck.flight.value.keys.length === 0)

@@ -33,6 +33,12 @@ export function timeOfNewKey(keys: readonly FlightKey[], seconds: number): numbe
   return isAtKey ? last.seconds + secondsPerKey : time;
 }
 
+interface Row {
+  element: HTMLElement;
+  remove: HTMLButtonElement;
+  fill(key: FlightKey, name: string): void;
+}
+
 export function keyList(
   deck: FlightDeck,
   state: State,
@@ -41,50 +47,66 @@ export function keyList(
 ): HTMLElement {
   const rows = make("div", "flight-keys");
   rows.setAttribute("role", "group");
-  rows.ariaLabel = "Keys";
+  rows.setAttribute("aria-label", "Keys");
   const note = make("p", "note");
   const keysNow = (): readonly FlightKey[] => deck.flight.value.keys;
 
-  const row = (key: FlightKey, index: number): HTMLElement => {
-    const name = `key ${index + 1}`;
+  const made: Row[] = [];
+  let shown: readonly FlightKey[] = [];
+
+  const makeRow = (place: number): Row => {
+    const edit = (by: (keys: readonly FlightKey[], at: number) => readonly FlightKey[]): void => {
+      const key = shown[place];
+      // A recording that ends with an edit has other keys than this one.
+      deck.edit((keys) => (key && keys.includes(key) ? by(keys, keys.indexOf(key)) : keys));
+    };
     const seconds = make("input", "percent");
     seconds.type = "number";
     seconds.step = "0.1";
-    seconds.value = String(Number(key.seconds.toFixed(3)));
-    seconds.ariaLabel = `Seconds of ${name}`;
-    // A recording that ends with an edit has other keys than this one.
-    const edit = (by: (keys: readonly FlightKey[], at: number) => readonly FlightKey[]): void =>
-      deck.edit((keys) => (keys.includes(key) ? by(keys, keys.indexOf(key)) : keys));
-    seconds.addEventListener("change", () =>
+    seconds.addEventListener("change", () => {
+      const typed = seconds.valueAsNumber;
       edit((keys, at) => {
-        const moved = withTime(keys, at, seconds.valueAsNumber);
+        const moved = withTime(keys, at, typed);
         if (moved !== undefined) return moved;
         state.notice.set("A key has a time of its own, in seconds");
-        seconds.value = String(Number(key.seconds.toFixed(3)));
+        seconds.value = seconds.defaultValue;
         return keys;
-      }),
+      });
+    });
+    const show = button("Show", "", () =>
+      deck.seek((shown[place]?.seconds ?? 0) - (keysNow()[0]?.seconds ?? 0)),
     );
-    const show = button("Show", `Show ${name}`, () =>
-      deck.seek(key.seconds - (keysNow()[0]?.seconds ?? 0)),
-    );
-    const replace = button("Replace", `Let ${name} show what is seen now`, () => {
+    const replace = button("Replace", "", () => {
       const { camera } = viewer;
       if (camera !== null) edit((keys, at) => withCamera(keys, at, camera));
     });
-    const remove = button("×", `Remove ${name}`, () => {
+    const remove = button("×", "", () => {
       edit(withoutKey);
-      const next = rows.querySelectorAll<HTMLElement>(".flight-key .small:last-child");
-      (next[Math.min(index, next.length - 1)] ?? add).focus();
+      (made[Math.min(place, made.length - 1)]?.remove ?? add).focus();
     });
-    for (const one of [show, replace, remove]) one.ariaLabel = one.title;
-    return make("div", "flight-key", seconds, show, replace, remove);
+    const fill = (key: FlightKey, name: string): void => {
+      seconds.value = seconds.defaultValue = String(Number(key.seconds.toFixed(3)));
+      seconds.setAttribute("aria-label", `Seconds of ${name}`);
+      show.title = `Show ${name}`;
+      replace.title = `Let ${name} show what is seen now`;
+      remove.title = `Remove ${name}`;
+      for (const one of [show, replace, remove]) one.setAttribute("aria-label", one.title);
+    };
+    return { element: make("div", "flight-key", seconds, show, replace, remove), remove, fill };
   };
 
+  /** Rows stay, and so does the focus in them. */
   const fill = (): void => {
     const keys = keysNow();
     const first = firstRow(keys.length, currentKey(keys, deck.seconds.value));
-    const shown = keys.slice(first, first + rowsShown);
-    rows.replaceChildren(...shown.map((key, i) => row(key, first + i)));
+    shown = keys.slice(first, first + rowsShown);
+    while (made.length > shown.length) made.pop()?.element.remove();
+    while (made.length < shown.length) {
+      const row = makeRow(made.length);
+      made.push(row);
+      rows.append(row.element);
+    }
+    shown.forEach((key, i) => made[i]?.fill(key, `key ${first + i + 1}`));
     note.hidden = keys.length <= rowsShown;
     setText(note, `Keys ${first + 1} to ${first + shown.length} of ${keys.length}`);
   };

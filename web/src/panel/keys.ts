@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import { addCommands } from "../camera/commands";
+import { addCommands, letterOf } from "../camera/commands";
 import { isPressed, isScrolled, isText } from "../camera/typing";
 
-/** What belongs to a key, by KeyboardEvent.key in lower case. */
+/** What belongs to a key, by letterOf() in lower case. */
 type Actions = Readonly<Record<string, (time: number) => void>>;
 
 /** Many keyboards have these with AltGr only, or with Option. */
@@ -19,7 +19,7 @@ function listen(actions: Actions, isHeard: (event: KeyboardEvent) => boolean): v
   addCommands(Object.keys(actions));
   window.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || hasModifier(event) || !isHeard(event)) return;
-    const key = event.key.toLowerCase();
+    const key = letterOf(event).toLowerCase();
     // Space presses, or scrolls, what has the focus.
     if (key === " " && (isPressed(event.target) || isScrolled(event.target))) return;
     const action = isText(event.target) || !Object.hasOwn(actions, key) ? undefined : actions[key];

@@ -118,7 +118,7 @@ function profileChart(profile: Profile): HTMLElement {
   slider.max = "1";
   slider.step = String(1 / (profile.samples.length - 1));
   slider.value = "0";
-  slider.ariaLabel = "Place along the line";
+  slider.setAttribute("aria-label", "Place along the line");
   const reading = make("p", "note");
   const read = (): void => {
     const share = Number(slider.value);

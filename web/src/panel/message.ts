@@ -129,7 +129,7 @@ export function showMessages(state: State): void {
   const command = make("code", "message-command");
   const bannerText = make("span", "");
   const timer = make("span", "timer");
-  timer.ariaHidden = "true"; // or it would be read out every second
+  timer.setAttribute("aria-hidden", "true"); // or it would be read out every second
   banner.append(bannerText, timer);
   message.append(make("div", "message-box", title, text, command));
   const update = (): void => {

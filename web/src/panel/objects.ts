@@ -44,7 +44,7 @@ function ownLook(state: State, object: number, name: string): Shown {
     });
   };
   const shading = make("select", "shape object-shading", make("option", "", "As all"));
-  shading.ariaLabel = `Shading of ${name}`;
+  shading.setAttribute("aria-label", `Shading of ${name}`);
   for (const [value, text] of shadings) {
     const option = make("option", "", text);
     option.value = String(value);
@@ -56,7 +56,7 @@ function ownLook(state: State, object: number, name: string): Shown {
   });
   const colour = make("input", "swatch");
   colour.type = "color";
-  colour.ariaLabel = `Colour of ${name}`;
+  colour.setAttribute("aria-label", `Colour of ${name}`);
   colour.value = firstColours[object % firstColours.length] ?? firstColours[0];
   colour.addEventListener("input", () => set({ colour: fromHex(colour.value) }));
   const isColoured = make("input", "");
@@ -98,8 +98,8 @@ function objectRow(state: State, viewer: Viewer, object: number): Shown {
     hide(alone(state.look.value.hidden, object, objectNames.length)),
   );
   const go = button("Go to", `Bring ${name} into view`, () => viewer.steering.goToObject(object));
-  only.ariaLabel = only.title;
-  go.ariaLabel = go.title;
+  only.setAttribute("aria-label", only.title);
+  go.setAttribute("aria-label", go.title);
   const facts = make("summary", "note", objectText(objects[object]) || "Look");
   facts.title = `How ${name} is shown`;
   const own = ownLook(state, object, name);
@@ -116,7 +116,7 @@ function objectRow(state: State, viewer: Viewer, object: number): Shown {
 export function objectTree(state: State, viewer: Viewer): HTMLElement {
   const list = make("ul", "objects");
   list.id = "objects";
-  list.ariaLabel = "Objects of the scene";
+  list.setAttribute("aria-label", "Objects of the scene");
   let key = "";
   let rows: Shown[] = [];
   state.session.watch((session) => {

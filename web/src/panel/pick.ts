@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a click found: a mark on the picture, and a card that says where that is and how surely.
+import { isSheetOpen, isText } from "../camera/typing";
 import { appearance } from "../pick";
 import type { Shown } from "../protocol/messages";
 import type { Pick, PickedPoint, State } from "../state";
@@ -79,7 +80,7 @@ export function showPick(state: State): void {
   const close = make("button", "pick-close", "×");
   close.type = "button";
   close.title = "Close (Esc)";
-  close.ariaLabel = "Close";
+  close.setAttribute("aria-label", "Close");
   close.addEventListener("click", () => state.pick.set(null));
   card.append(make("div", "pick-head", title, close), list);
 
@@ -107,6 +108,6 @@ export function showPick(state: State): void {
   });
   state.shown.watch(placeMark);
   window.addEventListener("keydown", (event) => {
-    if (event.key === "Escape") state.pick.set(null);
+    if (event.key === "Escape" && !isSheetOpen() && !isText(event.target)) state.pick.set(null);
   });
 }

@@ -86,7 +86,7 @@ function rectangle(part: PartStatistics, colour: string): HTMLElement {
 
 export function showRenderers(state: State): void {
   const list = make("ul", "renderers");
-  list.ariaLabel = "Renderers of the last picture";
+  list.setAttribute("aria-label", "Renderers of the last picture");
   const overlay = byId("parts", HTMLElement);
   const tint = make("button", "small", "Tint by renderer");
   tint.type = "button";

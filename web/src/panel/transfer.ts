@@ -144,13 +144,16 @@ interface Row {
   show(primitive: Primitive, unit: Unit): void;
 }
 
-function makeRow(change: (by?: Partial<Primitive>) => void): Row {
+/** `position`, from 1 on, is how screen readers tell it from others. */
+function makeRow(position: number, change: (by?: Partial<Primitive>) => void): Row {
   const colour = make("input", "swatch");
   colour.type = "color";
   colour.title = "Colour";
+  colour.setAttribute("aria-label", `Colour ${position}`);
   colour.addEventListener("input", () => change({ colour: fromHex(colour.value) }));
   const shape = make("select", "shape");
   shape.title = "Shape";
+  shape.setAttribute("aria-label", `Shape of colour ${position}`);
   for (const [value, name] of shapes) {
     const option = make("option", "", name);
     option.value = value;
@@ -170,6 +173,7 @@ function makeRow(change: (by?: Partial<Primitive>) => void): Row {
   const remove = make("button", "step", "×");
   remove.type = "button";
   remove.title = "Remove";
+  remove.setAttribute("aria-label", `Remove colour ${position}`);
   remove.addEventListener("click", () => change());
   const show = (primitive: Primitive, unit: Unit): void => {
     colour.value = toHex(primitive.colour);
@@ -214,7 +218,7 @@ export function transferEditor(state: State): HTMLElement {
     editor.hidden = colouring !== "edited";
     while (rows.length > primitives.length) rows.pop()?.element.remove();
     for (let i = rows.length; i < primitives.length; ++i) {
-      const row = makeRow((by) => set(edited(state.look.value.primitives, i, by)));
+      const row = makeRow(i + 1, (by) => set(edited(state.look.value.primitives, i, by)));
       rows.push(row);
       list.append(row.element);
     }

@@ -27,7 +27,7 @@ function bookmarkList(state: State, viewer: Viewer): HTMLElement {
   name.id = "bookmark-name";
   name.maxLength = 80;
   name.placeholder = "Name of this view";
-  name.ariaLabel = "Name of the bookmark";
+  name.setAttribute("aria-label", "Name of the bookmark");
   const fill = (): void => {
     const rows = readBookmarks(browserStorage()).map((bookmark) => {
       const go = button(bookmark.name, `Show ${bookmark.name}`, () => viewer.show(bookmark.view));
@@ -36,7 +36,7 @@ function bookmarkList(state: State, viewer: Viewer): HTMLElement {
         fill();
         name.focus();
       });
-      remove.ariaLabel = remove.title;
+      remove.setAttribute("aria-label", remove.title);
       return make("li", "bookmark", go, remove);
     });
     list.replaceChildren(...rows);
