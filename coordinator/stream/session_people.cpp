@@ -346,7 +346,8 @@ void Session::Impl::putState(Seat& seat, const coordinator::Status& status) {
     const std::string& problem = isExplained            ? status.problem
                                  : seat.problem.empty() ? ownProblem(seat)
                                                         : seat.problem;
-    Place place{name_, static_cast<int>(seats_.size()), leader_ == &seat, leader_ != nullptr};
+    Place place{name_, static_cast<int>(seats_.size()), leader_ == &seat, leader_ != nullptr,
+                seat.mayControl};
     if (const SwapGroup* const group = groupOf(seat)) {
         place.barrier = seat.barrier;
         place.together = group->size();
