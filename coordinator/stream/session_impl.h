@@ -71,7 +71,7 @@ private:
 
     // ---- With mutex_ held. What takes the lock may give it up meanwhile.
 
-    void wantNow(const ViewRequest& view);
+    bool wantNow(const ViewRequest& view);
     void setProblem(std::string& problem, std::string value);
     void waitForChange(std::unique_lock<std::mutex>& lock,
                        std::optional<Clock::time_point> deadline);

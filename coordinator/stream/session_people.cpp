@@ -81,7 +81,9 @@ void Session::Impl::want(Seat& seat, ViewRequest view) {
     setProblem(seat.problem, "");
     setProblem(seat.refusal, "");
     view.viewer = seat.id;
-    wantNow(view);
+    // Nothing is drawn for the same view again, but it is to be answered.
+    if (!wantNow(view))
+        seat.delivered.fineness = Fineness::Moving;
 }
 
 absl::Status Session::Impl::change(const ViewChange& change) {
@@ -269,16 +271,19 @@ SessionCounts Session::Impl::counts() const {
     return counts_;
 }
 
-void Session::Impl::wantNow(const ViewRequest& view) {
+/// True where it is another view than before.
+bool Session::Impl::wantNow(const ViewRequest& view) {
     // Who leads shows what is asked for: the next picture has it.
     if (leader_ != nullptr && leader_->screen &&
         leader_->screen->shown != view.frame.shown.front()) {
         leader_->screen->shown = view.frame.shown.front();
         leader_->screen->isToBeChecked = true;
     }
-    if (progress_.want(view, Clock::now()))
+    const bool isOther = progress_.want(view, Clock::now());
+    if (isOther)
         for (const auto& each : seats_) each->outbox.dropStill();
     changed_.notify_all();
+    return isOther;
 }
 
 void Session::Impl::setProblem(std::string& problem, std::string value) {
@@ -341,7 +346,8 @@ void Session::Impl::putState(Seat& seat, const coordinator::Status& status) {
     const std::string& problem = isExplained            ? status.problem
                                  : seat.problem.empty() ? ownProblem(seat)
                                                         : seat.problem;
-    Place place{name_, static_cast<int>(seats_.size()), leader_ == &seat, leader_ != nullptr};
+    Place place{name_, static_cast<int>(seats_.size()), leader_ == &seat, leader_ != nullptr,
+                seat.mayControl};
     if (const SwapGroup* const group = groupOf(seat)) {
         place.barrier = seat.barrier;
         place.together = group->size();

@@ -156,6 +156,7 @@ std::string stateMessage(const coordinator::Status& status, std::string_view pro
     state.mutable_place()->set_viewers(place.viewers);
     state.mutable_place()->set_leads(place.leads);
     state.mutable_place()->set_led(place.isLed);
+    state.mutable_place()->set_may_control(place.mayControl);
     state.mutable_place()->set_barrier(sanitised(place.barrier));
     state.mutable_place()->set_together(place.together);
     state.mutable_place()->set_behind(place.behind);

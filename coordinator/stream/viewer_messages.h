@@ -85,6 +85,7 @@ struct Place {
     int viewers = 1;           ///< this one among them
     bool leads = true;         ///< this one moves the view
     bool isLed = true;         ///< somebody does
+    bool mayControl = false;   ///< this one may take the lead, and switch layouts
     std::string barrier = {};  ///< that it shows its pictures behind, with others; empty: none
     int together = 0;          ///< those behind it, this one among them
     int behind = 0;            ///< those of them that are not waited for

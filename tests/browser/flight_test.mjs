@@ -168,8 +168,8 @@ await run("flight_test", async (browser, started) => {
   const files = filesOf(zip.content);
   check(
     zip.name === "path.zip" &&
-      [...files.keys()].join() === "00001.png,00002.png,00003.png,flight.json",
-    "every picture of the flight is saved, and the flight",
+      [...files.keys()].join() === "flight.json,00001.png,00002.png,00003.png",
+    "the flight is saved, and every picture of it",
   );
   check(
     (await browser.pngHash(files.get("00003.png"))) === (await browser.hook("pixelHash")),

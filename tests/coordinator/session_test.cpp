@@ -185,6 +185,11 @@ TEST(Session, IsOnlyWatchedByWhoMayNotControl) {
         guest.stateWhere([](const v1::SessionState& state) { return !state.note().empty(); });
     ASSERT_TRUE(refused.has_value());
     EXPECT_FALSE(refused->place().led());
+    EXPECT_FALSE(refused->place().may_control());
+    Browser leader(sessions, kLead);
+    EXPECT_TRUE(leader.stateWhere([](const v1::SessionState& state) {
+        return state.place().leads() && state.place().may_control();
+    }));
     Browser alone(sessions, {"", Role::Lead, false});
     alone.look(1);
     EXPECT_TRUE(alone.nextFrame().has_value()) << "its own view is its own";

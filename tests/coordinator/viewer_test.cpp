@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -257,19 +258,40 @@ TEST(Viewer, SendsNoMoreOfAStillPictureOnceTheSceneChanges) {
     EXPECT_LT(next->frame().picture_bytes(), exact.picture_bytes() / 10) << "of the new scene";
 }
 
+/// What `browser` is given up to the exact picture, all acknowledged; empty where it does not come.
+std::vector<v1::Frame> framesUntilExact(Browser& browser) {
+    std::vector<v1::Frame> given;
+    while (given.empty() || !given.back().has_png()) {
+        std::optional<v1::Frame> frame = browser.nextFrame();
+        if (!frame)
+            return {};
+        browser.acknowledge(frame->frame_number());
+        given.push_back(*std::move(frame));
+    }
+    return given;
+}
+
 TEST(Viewer, DoesNothingWhileNothingChanges) {
     FakeFrameSource frames;
     Browser browser(frames, resting());
     browser.look(1);
-    for (bool isExact = false; !isExact;) {
-        const auto frame = browser.nextFrame();
-        browser.acknowledge(frame->frame_number());
-        isExact = frame->has_png();
-    }
-    browser.send(viewMessage(2, 1));  // another number, the same view
+    ASSERT_FALSE(framesUntilExact(browser).empty());
     EXPECT_FALSE(browser.next(milliseconds(300)).has_value());
     EXPECT_EQ(frames.requests().size(), 1u);
     EXPECT_FALSE(browser.viewer().unacknowledgedFor().has_value());
+}
+
+TEST(Viewer, GivesThePictureOfAViewAtRestAgainWhenTheSameIsAskedFor) {
+    FakeFrameSource frames;
+    Browser browser(frames, resting());
+    browser.look(1);
+    ASSERT_FALSE(framesUntilExact(browser).empty());
+    browser.send(viewMessage(2, 1));  // another number, the same view
+    const std::vector<v1::Frame> again = framesUntilExact(browser);
+    ASSERT_FALSE(again.empty());
+    for (const v1::Frame& frame : again) EXPECT_EQ(frame.view_sequence(), 2u);
+    EXPECT_FALSE(browser.nextFrame(milliseconds(100)).has_value());
+    EXPECT_EQ(frames.requests().size(), 1u) << "nothing is drawn for it";
 }
 
 TEST(Viewer, ComesToRestWithTwoEyesInOnePicture) {

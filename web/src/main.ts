@@ -50,7 +50,6 @@ function start(): void {
   showMessages(state);
   showQuality(state);
   showDisplays(state, viewer);
-  showSession(state, viewer);
   showScene(state, viewer);
   showTerrain(state, viewer);
   showNumbers(state);
@@ -58,7 +57,7 @@ function start(): void {
   showPick(state);
   showMeasure(state, viewer);
   showViews(state, viewer);
-  showFlight(state, viewer);
+  showSession(state, viewer, showFlight(state, viewer));
   showRenderers(state);
   showEqualizers(state);
   showPlots(state);

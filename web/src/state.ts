@@ -21,7 +21,11 @@ export class Value<T> {
   set(value: T): void {
     if (Object.is(value, this.current)) return;
     this.current = value;
-    for (const listener of this.listeners) listener(value);
+    for (const listener of this.listeners) {
+      // One of them has set another, of which all have heard by now.
+      if (!Object.is(value, this.current)) return;
+      listener(value);
+    }
   }
 
   /** Calls `listener` now and after each change; returns how to end that. */

@@ -61,6 +61,16 @@ describe("Steering", () => {
     }
   });
 
+  it("does not walk where no ground can be asked for", () => {
+    for (const hasView of [false, true]) {
+      const { steering, state } = make(() => false);
+      if (!hasView) steering.camera = null;
+      steering.setWalking(true);
+      expect(state.walking.value).toBe(false);
+      expect(state.notice.value).toContain("cannot be asked for now");
+    }
+  });
+
   it("stays in a view or flight taken before a walk knew its ground", () => {
     for (const leave of ["jumpTo", "moveAlong"] as const) {
       let answer = (): void => {};

@@ -66,14 +66,7 @@ export class Steering implements CameraHolder {
     this.walker = new Walker({
       moved: (camera, time) => this.moveTo(camera, time),
       ask: (from, to, samples, answered) => events.ask(from, to, samples, answered),
-      failed: (isAnswered) => {
-        state.walking.set(false);
-        state.notice.set(
-          isAnswered
-            ? "There is no ground to stand on there"
-            : "The ground cannot be asked for now: try again when pictures come",
-        );
-      },
+      failed: (isAnswered) => this.walkFailed(isAnswered),
     });
     this.unwatch = [
       state.walking.watch((isWalking) => this.walkingChanged(isWalking)),
@@ -110,8 +103,18 @@ export class Steering implements CameraHolder {
 
   setWalking(isWalking: boolean): void {
     if (isWalking && this.isWatching) return this.state.notice.set(watchingText);
+    if (isWalking && this.camera === null) return this.walkFailed(false);
     if (isWalking) this.state.flying.set(false);
     this.state.walking.set(isWalking);
+  }
+
+  private walkFailed(isAnswered: boolean): void {
+    this.state.walking.set(false);
+    this.state.notice.set(
+      isAnswered
+        ? "There is no ground to stand on there"
+        : "The ground cannot be asked for now: try again when pictures come",
+    );
   }
 
   walk(keys: Keys, isFast: boolean, seconds: number, time: number): void {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import type { Camera } from "../camera/camera";
+import { defaultLook } from "../look";
+import { Shading } from "../protocol/messages";
+import type { SharedView } from "../share";
 import type { Stage } from "./deck";
 import { FlightDeck } from "./deck";
 import { withKey } from "./flight";
@@ -18,6 +21,11 @@ class StageOfTest implements Stage {
   isWatching = false;
   exact: Blob | undefined;
   readonly pictureSize = { width: 64, height: 36 };
+  tau = 1;
+  sharedView(): SharedView | null {
+    const rest = { budget: null, shading: Shading.SMOOTH, look: defaultLook };
+    return this.camera && { camera: this.camera, tau: this.tau, ...rest };
+  }
   move(camera: Camera): void {
     if (this.isWatching) return;
     this.camera = camera;
@@ -117,6 +125,52 @@ describe("A flight deck", () => {
       expect(told).toHaveBeenLastCalledWith(why);
       expect(deck.activity.value.kind).toBe("idle");
     }
+  });
+
+  const flightOf = (seconds: number) =>
+    deck.load({
+      name: "",
+      keys: [0, 1].map((i) => ({ seconds: i * seconds, camera: cameraAt(i) })),
+    });
+
+  it("begins no pictures that a ZIP does not hold, and says how many it does", async () => {
+    flightOf(2200);
+    await expect(deck.draw(30)).rejects.toThrow(
+      "holds 65534 pictures, and these are 66001: up to 29",
+    );
+    flightOf(100_000);
+    await expect(deck.draw(1)).rejects.toThrow("shorten the flight");
+    expect(deck.activity.value.kind).toBe("idle");
+  });
+
+  it("saves what came before the ZIP was full, and says so", async () => {
+    flightOf(4);
+    const bytes = { arrayBuffer: () => Promise.resolve(new ArrayBuffer(0)) };
+    stage.exact = { size: 2 ** 30, ...bytes } as Blob;
+    expect(await deck.draw(1)).toBeInstanceOf(Blob);
+    expect(told).toHaveBeenLastCalledWith("A ZIP file holds 4 GiB: 3 of 5 pictures are saved");
+    expect(deck.activity.value.kind).toBe("idle");
+  });
+
+  it("saves no pictures that differ in more than the camera", async () => {
+    flightOf(4);
+    stage.exact = new Blob(["a picture"]);
+    const end = deck.activity.watch((activity) => {
+      if (activity.kind === "drawing" && activity.frame === 2) stage.tau = 2;
+    });
+    await expect(deck.draw(1)).rejects.toThrow("Settings have changed meanwhile");
+    end();
+    expect(await deck.draw(1)).toBeInstanceOf(Blob);
+  });
+
+  it("ends a recording after ten minutes, and says why", () => {
+    deck.record();
+    stage.move(cameraAt(1));
+    vi.advanceTimersByTime(601_000);
+    expect(deck.activity.value.kind).toBe("idle");
+    expect(told).toHaveBeenLastCalledWith(
+      expect.stringMatching(/^A recording ends after 10 minutes: \d+ views as/),
+    );
   });
 
   it("stops where another takes the lead", () => {

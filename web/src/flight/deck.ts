@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Records, plays and draws a flight.
 import type { Camera } from "../camera/camera";
+import type { SharedView } from "../share";
 import { Value, watchingText } from "../state";
 import type { Size } from "../view/size";
 import { flightJson } from "./file";
 import { fitKeys, offBy } from "./fit";
 import type { Flight, FlightKey } from "./flight";
 import { cameraAt, secondsOf } from "./flight";
-import { ZipWriter } from "./zip";
+import { mostEntries, ZipWriter } from "./zip";
 
 /** Where a flight is flown. */
 export interface Stage {
@@ -23,6 +24,8 @@ export interface Stage {
 /** What is seen of it. */
 export interface Pictures {
   readonly pictureSize: Size;
+  /** The newest view, with its settings and look. */
+  sharedView(): SharedView | null;
   /** The picture of the newest view, once it is exact. */
   exactNow(): Blob | undefined;
 }
@@ -107,13 +110,13 @@ export class FlightDeck {
     this.expected = this.stage.movements;
   }
 
-  /** Ends whatever goes on; a recording becomes the flight. */
-  stop(): void {
+  /** Ends whatever goes on; a recording becomes the flight, of which is told, after `why`. */
+  stop(why = ""): void {
     const { kind } = this.activity.value;
     if (this.frame !== undefined) cancelAnimationFrame(this.frame);
     this.frame = undefined;
     this.activity.set(idle);
-    if (kind === "recording") this.finishRecording();
+    if (kind === "recording") this.tell(`${why}${this.finishRecording()}`);
   }
 
   // ---- Recording
@@ -126,7 +129,8 @@ export class FlightDeck {
     const step = (): void => {
       const seconds = this.recordView();
       this.seconds.set(seconds);
-      if (seconds > longestSeconds) this.stop();
+      if (seconds > longestSeconds)
+        this.stop(`A recording ends after ${longestSeconds / 60} minutes: `);
       else this.frame = requestAnimationFrame(step);
     };
     step();
@@ -141,22 +145,21 @@ export class FlightDeck {
     return seconds;
   }
 
-  private finishRecording(): void {
+  /** Returns what came of it. */
+  private finishRecording(): string {
     // What moved since the last animation frame is part of it.
     this.recordView();
     const views = trimmed(this.views);
     this.views = [];
     if (views.length < 2) {
       this.seconds.set(0);
-      return this.tell("Nothing moved: the flight stays as it was");
+      return "Nothing moved: the flight stays as it was";
     }
     const { keys, error } = fitKeys(views, tolerance);
     this.flight.set({ ...this.flight.value, keys });
     this.seconds.set(this.length);
     const percent = Number((100 * error).toPrecision(2));
-    this.tell(
-      `${views.length} views as ${keys.length} keys, off by ${percent} % of the distance at most`,
-    );
+    return `${views.length} views as ${keys.length} keys, off by ${percent} % of the distance at most`;
   }
 
   // ---- Playing
@@ -182,33 +185,56 @@ export class FlightDeck {
 
   // ---- Pictures
 
+  /** Throws an Error for the user to read where a ZIP does not hold so many pictures. */
+  private checkFits(frames: number): void {
+    const most = mostEntries - 1; // the flight is one, too
+    if (frames <= most) return;
+    const rate = Math.floor((most - 1) / this.length);
+    const remedy = rate < 1 ? "shorten the flight" : `up to ${rate} a second fit`;
+    throw new Error(`A ZIP file holds ${most} pictures, and these are ${frames}: ${remedy}`);
+  }
+
+  /** All that pictures of a flight have in common but their size, as text. */
+  private settings(): string {
+    return JSON.stringify({ ...this.pictures.sharedView(), camera: null });
+  }
+
   /**
-   * Every picture of the flight, exact, and the flight, as a ZIP file; undefined where it was
-   * stopped. Throws an Error for the user to read where a picture does not come.
+   * The flight and every picture of it, exact, as a ZIP file, or as many as that holds; undefined
+   * where it was stopped. Throws an Error for the user to read where a picture does not come.
    */
   async draw(framesPerSecond: number): Promise<Blob | undefined> {
     this.stop();
     const flight = this.flight.value;
     const frames = Math.floor(this.length * framesPerSecond + 1e-6) + 1;
-    const digits = Math.max(5, String(frames).length);
+    this.checkFits(frames);
     const size = JSON.stringify(this.pictures.pictureSize);
+    let settings: string | undefined;
     const zip = new ZipWriter();
     const mine = (frame: number): Activity => ({ kind: "drawing", frame, frames });
     let activity = mine(0);
     this.activity.set(activity);
     try {
+      await zip.add({ name: "flight.json", content: new Blob([flightJson(flight)]) });
       for (let i = 0; i < frames; ++i) {
         this.show(i / framesPerSecond);
+        settings ??= this.settings(); // not before: the eye of a flight may go under ground
         const picture = await this.exact(() => this.activity.value === activity);
         if (picture === undefined) return undefined;
         if (JSON.stringify(this.pictures.pictureSize) !== size)
           throw new Error("The window has changed its size meanwhile: pictures would differ");
-        await zip.add({ name: `${String(i + 1).padStart(digits, "0")}.png`, content: picture });
+        if (this.settings() !== settings)
+          throw new Error("Settings have changed meanwhile: pictures would differ");
+        const name = `${String(i + 1).padStart(5, "0")}.png`;
+        const hasRoom = await zip.add({ name, content: picture });
         if (this.activity.value !== activity) return undefined;
+        if (!hasRoom) {
+          this.tell(`A ZIP file holds 4 GiB: ${i} of ${frames} pictures are saved`);
+          break;
+        }
         activity = mine(i + 1);
         this.activity.set(activity);
       }
-      await zip.add({ name: "flight.json", content: new Blob([flightJson(flight)]) });
       return zip.finish();
     } finally {
       if (this.activity.value === activity) this.activity.set(idle);

@@ -6,7 +6,7 @@ import { flightJson, flightOfJson } from "./file";
 import { fitKeys, offBy } from "./fit";
 import type { FlightKey } from "./flight";
 import { cameraAt, problemOf, secondsOf, withKey, withoutKey, withTime } from "./flight";
-import { keepFlight, readFlights, removeFlight } from "./store";
+import { isKept, keepFlight, readFlights, removeFlight } from "./store";
 
 const cameraFrom = (eye: Vec3): Camera => ({
   eye,
@@ -89,6 +89,11 @@ describe("A flight", () => {
       { name: "a", keys: keys.slice(0, 1) },
       { name: "b", keys: keys.slice(1) },
     ]);
+    const changed = { name: "b", keys: keys.slice(2) };
+    expect(
+      [readFlights(storage)[1] ?? changed, changed].map((one) => isKept(storage, one)),
+    ).toEqual([true, false]);
+    expect(isKept(storage, { name: "", keys: [] })).toBe(true);
     removeFlight(storage, "a");
     expect(readFlights(storage).map(({ name }) => name)).toEqual(["b"]);
     held.set("eyrie.flights", '["{", 3]');

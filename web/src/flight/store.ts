@@ -23,6 +23,11 @@ export function readFlights(storage: NamedStorage): Flight[] {
   }
 }
 
+/** Whether it is among them as it is now, or has nothing to be kept. */
+export const isKept = (storage: NamedStorage, flight: Flight): boolean =>
+  flight.keys.length === 0 ||
+  readFlights(storage).some((one) => flightJson(one) === flightJson(flight));
+
 function write(storage: NamedStorage, flights: readonly Flight[]): boolean {
   const sorted = [...flights].sort((a, b) => a.name.localeCompare(b.name));
   try {

@@ -7,7 +7,8 @@ export interface ZipEntry {
   content: Blob;
 }
 
-const mostEntries = 0xffff;
+/** Of files that a ZIP holds. */
+export const mostEntries = 0xffff;
 const mostBytes = 0xffff_ffff;
 /** 1980-01-01, the first day a ZIP knows: the same files make the same archive. */
 const firstDay = 0x21;
@@ -44,12 +45,12 @@ export class ZipWriter {
   private offset = 0;
   private count = 0;
 
-  /** Throws a RangeError where a ZIP holds no more. */
-  async add({ name, content }: ZipEntry): Promise<void> {
+  /** False where a ZIP holds no more: it is as it was. */
+  async add({ name, content }: ZipEntry): Promise<boolean> {
+    if (this.count === mostEntries || this.offset + content.size > mostBytes - 2 ** 24)
+      return false;
     const path = new TextEncoder().encode(name) as Uint8Array<ArrayBuffer>;
     const crc = crc32(new Uint8Array(await content.arrayBuffer()));
-    if (this.count === mostEntries || this.offset + content.size > mostBytes - 2 ** 24)
-      throw new RangeError("a ZIP file holds 4 GiB and 65,535 files at most");
     const common = [
       [20, 2], // version that reads it
       [0x0800, 2], // the name is UTF-8
@@ -77,6 +78,7 @@ export class ZipWriter {
     this.directory.push(entry, path);
     this.offset += header.length + path.length + content.size;
     this.count += 1;
+    return true;
   }
 
   finish(): Blob {

@@ -81,11 +81,13 @@ export function messageFor(situation: Situation): Message | null {
     return { title: "There is no picture", text: sentence(session.problem) };
   if (session.sceneBounds === undefined)
     return { title: "Opening the scene", text: "The renderers are reading it." };
-  if (session.place?.led === false)
+  if (session.place?.led === false) {
+    const remedy = ": from here by Take the lead, under Together in the panel";
     return {
       title: "Nobody leads",
-      text: "The picture appears when somebody who may steer leads this session: from here by Take the lead, under Together in the panel.",
+      text: `The picture appears when somebody who may steer leads this session${session.place.mayControl ? remedy : ""}.`,
     };
+  }
   return { title: "Drawing the first picture", text: "It appears in a moment." };
 }
 

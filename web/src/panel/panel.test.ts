@@ -129,6 +129,8 @@ describe("the message in place of a picture", () => {
     shared.place = create(ViewerPlaceSchema, { session: "review", viewers: 1, led: false });
     expect(titleOf(connected, shared)).toBe("Nobody leads");
     const alone = { connection: connected, session: shared, hasPicture: false };
+    expect(messageFor(alone)?.text).not.toContain("Take the lead");
+    shared.place.mayControl = true;
     expect(messageFor(alone)?.text).toContain("Take the lead");
     shared.place.led = true;
     expect(titleOf(connected, shared)).toBe("Drawing the first picture");

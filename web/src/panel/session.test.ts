@@ -2,7 +2,24 @@
 import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
 import { ViewerPlaceSchema } from "../protocol/gen/eyrie/v1/viewer_pb";
-import { placeText } from "./session";
+import { defaultLook } from "../look";
+import { Shading } from "../protocol/messages";
+import { decodeView } from "../share";
+import { placeText, sharedPage } from "./session";
+
+describe("a view that is shared", () => {
+  it("is the one that is wanted, whatever the address says", () => {
+    const camera = { eye: [0, -9, 5], target: [0, 0, 0], up: [0, 0, 1], fovyDegrees: 45 } as const;
+    const rest = { tau: 3, budget: null, shading: Shading.SMOOTH, look: defaultLook };
+    const page = "https://host/below/?canvas=wall#eye=1,2,3&at=4,5,6&tau=1";
+    const shared = new URL(sharedPage(page, "review", { camera, ...rest }));
+    expect(shared.origin + shared.pathname).toBe("https://host/below/");
+    expect(shared.searchParams.get("session")).toBe("review");
+    expect(shared.searchParams.get("canvas")).toBe("wall");
+    expect(decodeView(shared.hash)).toEqual({ camera, ...rest });
+    expect(new URL(sharedPage(page, "review", null)).hash).toBe(new URL(page).hash);
+  });
+});
 
 describe("a place in a session", () => {
   it("says how many see the view, and who moves it", () => {

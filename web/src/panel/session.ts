@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who else sees what is seen here, and who moves it.
+import type { FlightDeck } from "../flight/deck";
+import { isKept } from "../flight/store";
 import { newSessionName, pageIn } from "../place";
 import type { ViewerPlace } from "../protocol/messages";
+import type { SharedView } from "../share";
+import { encodeView } from "../share";
 import type { State } from "../state";
+import { browserStorage } from "../storage";
 import type { Viewer } from "../viewer";
 import { copyText } from "./clipboard";
 import { byId, make, setText } from "./element";
@@ -21,6 +26,21 @@ export function placeText(place: ViewerPlace): string {
   return `${plural(place.viewers, "viewer")} · ${who}${togetherText(place)}`;
 }
 
+/** The same page in that session, with the view that is wanted now: the address may lag behind. */
+export function sharedPage(page: string, session: string, view: SharedView | null): string {
+  const url = new URL(pageIn(page, { session, role: "lead" }));
+  if (view !== null) url.hash = encodeView(view);
+  return url.href;
+}
+
+/** The page loads anew to share its view. */
+function mayLoseFlight({ activity, flight }: FlightDeck): boolean {
+  const isLost = activity.value.kind === "recording" || !isKept(browserStorage(), flight.value);
+  const question =
+    "This loads the page anew, and the flight is not kept in this browser: it will be gone. Share the view all the same?";
+  return !isLost || window.confirm(question);
+}
+
 function button(id: string, text: string, title: string, action: () => void): HTMLButtonElement {
   const element = make("button", "small", text);
   element.id = id;
@@ -30,7 +50,7 @@ function button(id: string, text: string, title: string, action: () => void): HT
   return element;
 }
 
-export function showSession(state: State, viewer: Viewer): void {
+export function showSession(state: State, viewer: Viewer, deck: FlightDeck): void {
   const text = make("p", "field");
   text.id = "session-place";
   text.setAttribute("role", "status");
@@ -38,8 +58,9 @@ export function showSession(state: State, viewer: Viewer): void {
     viewer.takeLead(),
   );
   const share = button("share-session", "Share this view", "Let others see what you see", () => {
+    if (!mayLoseFlight(deck)) return;
     const session = newSessionName((bytes) => crypto.getRandomValues(bytes));
-    window.location.assign(pageIn(window.location.href, { session, role: "lead" }));
+    window.location.assign(sharedPage(window.location.href, session, viewer.sharedView()));
   });
   const link = button("watch-link", "Copy link to watch", "For those who are to watch", () => {
     const { session = "" } = state.session.value?.place ?? {};
@@ -48,7 +69,8 @@ export function showSession(state: State, viewer: Viewer): void {
       state.notice.set(isCopied ? "Link copied" : "Link: copying is forbidden"),
     );
   });
-  byId("session", HTMLElement).append(
+  const panel = byId("session", HTMLElement);
+  panel.append(
     make("h2", "heading", "Together"),
     text,
     make("div", "small-buttons field", lead, share, link),
@@ -58,8 +80,10 @@ export function showSession(state: State, viewer: Viewer): void {
     const isShared = (place?.session ?? "") !== "";
     setText(text, isShared && place !== undefined ? placeText(place) : "");
     text.hidden = !isShared;
-    lead.hidden = !isShared || place?.leads === true;
+    const mayControl = place?.mayControl === true;
+    lead.hidden = !isShared || !mayControl || place.leads;
     link.hidden = !isShared;
-    share.hidden = isShared;
+    share.hidden = isShared || !mayControl;
+    panel.hidden = !isShared && !mayControl;
   });
 }

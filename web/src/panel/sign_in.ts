@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Entry } from "../protocol/login";
 import { logIn, splitFragment } from "../protocol/login";
+import { Value } from "../state";
 import { byId, make, setText } from "./element";
 
 const loginUrl = "login";
@@ -20,10 +21,10 @@ function takeToken(): string | undefined {
   return token;
 }
 
-/** Asks for a token until the server takes one. */
-function askForToken(why: Exclude<Entry, "ok">): Promise<void> {
+/** Asks for a token until the server takes one, given here or by `entry` becoming another. */
+function askForToken(entry: Value<Entry>, show: (token: string) => void): Promise<void> {
   const message = byId("message", HTMLElement);
-  const reason = make("p", "", reasons[why]);
+  const reason = make("p", "");
   const input = make("input", "token");
   input.type = "password";
   input.autocomplete = "off";
@@ -32,26 +33,37 @@ function askForToken(why: Exclude<Entry, "ok">): Promise<void> {
   message.replaceChildren(form);
   message.hidden = false;
   input.focus();
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    show(input.value.trim());
+  });
   return new Promise((resolve) => {
-    form.addEventListener("submit", (event) => {
-      event.preventDefault();
-      void logIn(loginUrl, input.value.trim()).then((entry) => {
-        if (entry !== "ok") {
-          setText(reason, reasons[entry]);
-          return;
-        }
-        message.hidden = true;
-        message.replaceChildren();
-        resolve();
-      });
+    const end = entry.watch((now) => {
+      if (now !== "ok") {
+        setText(reason, reasons[now]);
+        return;
+      }
+      end();
+      message.hidden = true;
+      message.replaceChildren();
+      resolve();
     });
   });
 }
 
-/** Returns when the server lets this browser in, for which the user may have to give a token. */
+/**
+ * Returns when the server lets this browser in, for which the user may have to give a token. Those
+ * of links that are opened in this tab are taken ever after.
+ */
 export async function signIn(): Promise<void> {
-  const entry = await logIn(loginUrl, takeToken());
-  if (entry !== "ok") await askForToken(entry);
+  const entry = new Value<Entry>("needed");
+  const show = async (token?: string): Promise<void> => entry.set(await logIn(loginUrl, token));
+  window.addEventListener("hashchange", () => {
+    const token = takeToken();
+    if (token !== undefined) void show(token);
+  });
+  await show(takeToken());
+  if (entry.value !== "ok") await askForToken(entry, (token) => void show(token));
 }
 
 /** Once the server, lost before, wants a token again, as after a cookie's life, the page starts anew. */

@@ -42,6 +42,14 @@ describe("logging in", () => {
     expect(await logIn("/login", "secret")).toBe("limited");
   });
 
+  it("knows tokens that no header can hold to be wrong", async () => {
+    const asked = answering(200);
+    for (const token of ["secret”", "sécret", "sec ret"])
+      expect(await logIn("/login", token)).toBe("wrong");
+    expect(asked).not.toHaveBeenCalled();
+    expect(await logIn("/login", "aZ09-._~+/=")).toBe("ok");
+  });
+
   it("leaves a server that is away, or knows no tokens, to the stream", async () => {
     answering(404);
     expect(await logIn("/login")).toBe("ok");

@@ -27,8 +27,12 @@ function entryOf(status: number, hadToken: boolean): Entry {
   return "ok"; // also of servers that know no /login: what else is amiss the stream says
 }
 
+/** Of a bearer token (RFC 6750): with others, such as typographic quotes, fetch throws. */
+const tokenCharacters = /^[\w.~+/=-]*$/;
+
 /** Shows the token, or, without one, asks whether the browser is let in already. */
 export async function logIn(url: string, token?: string): Promise<Entry> {
+  if (token !== undefined && !tokenCharacters.test(token)) return "wrong";
   try {
     const response = await fetch(
       url,

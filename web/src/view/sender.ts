@@ -97,7 +97,7 @@ export class ViewSender {
     this.inputTime = undefined;
     const view = this.source.wantedView();
     if (view === null) return;
-    // The server draws what has changed: it would not answer the same view again.
+    // The server has nothing to draw for the same view again.
     const content = JSON.stringify(view);
     if (content === this.content) return;
     // A view that cannot go now goes when the connection opens, or with the next frame.
