@@ -2,6 +2,7 @@
 #include "renderer/import/raster_file.h"
 
 #include <array>
+#include <cstdlib>
 #include <memory>
 #include <set>
 
@@ -67,6 +68,31 @@ absl::Status cannotBeOpened(const std::string& path, const char* wanted, QuietGd
                                      GDALVersionInfo("RELEASE_NAME"), error, wanted));
 }
 
+/// DataLoss for a file of ENVI that is shorter than its header says: GDAL takes what such a file
+/// lacks for zeros that were never written.
+absl::Status checkWhole(const std::string& path, GDALDatasetH raster) {
+    const auto said = [raster](const char* field) -> std::uint64_t {
+        const char* const text = GDALGetMetadataItem(raster, field, "ENVI");
+        return text == nullptr ? 0 : std::strtoull(text, nullptr, 10);
+    };
+    const GDALDriverH driver = GDALGetDatasetDriver(raster);
+    if (driver == nullptr || !EQUAL(GDALGetDriverShortName(driver), "ENVI") ||
+        said("file_compression") != 0)
+        return absl::OkStatus();
+    std::uint64_t expected = 1;
+    for (const int factor :
+         {GDALGetRasterXSize(raster), GDALGetRasterYSize(raster), GDALGetRasterCount(raster),
+          GDALGetDataTypeSizeBytes(GDALGetRasterDataType(GDALGetRasterBand(raster, 1)))})
+        expected *= static_cast<std::uint64_t>(factor);
+    expected += said("header_offset");
+    VSIStatBufL status;
+    if (VSIStatL(gdalPath(path).c_str(), &status) != 0 ||
+        static_cast<std::uint64_t>(status.st_size) >= expected)
+        return absl::OkStatus();
+    return absl::DataLossError(fmt::format("{}: has {} bytes, and {} by its header; {}", path,
+                                           status.st_size, expected, whyUnreadable(path)));
+}
+
 }  // namespace
 
 std::string gdalPath(const std::string& path) {
@@ -96,6 +122,7 @@ absl::StatusOr<Dataset> openRaster(const std::string& path, const char* wanted, 
                                          "subdatasets instead{} (gdalinfo lists them)",
                                          first ? fmt::format(", such as {}", first) : ""));
     }
+    RETURN_IF_ERROR(checkWhole(path, dataset.get()));
     return dataset;
 }
 

@@ -357,6 +357,19 @@ TEST_F(DemSource, CallsATruncatedFileUnreadable) {
     EXPECT_FALSE(test::readDem(path).ok());
 }
 
+/// What it lacks GDAL reads as zeros.
+TEST_F(DemSource, RefusesAFileOfEnviThatIsShorterThanItsHeaderSays) {
+    const std::string path = folder_.path("cut.img");
+    GDALAllRegister();
+    const GDALDatasetH file =
+        GDALCreate(GDALGetDriverByName("ENVI"), path.c_str(), 40, 30, 1, GDT_Int16, nullptr);
+    GDALFillRaster(GDALGetRasterBand(file, 1), 100, 0);
+    GDALClose(file);
+    EXPECT_TRUE(test::readDem(path).ok());
+    std::filesystem::resize_file(path, 2398);
+    expectRefused(path, absl::StatusCode::kDataLoss, "has 2398 bytes, and 2400 by its header");
+}
+
 TEST_F(DemSource, WrittenAnewRemovesWhatAKilledWriterLeft) {
     const std::string path = folder_.path("a.tif");
     std::ofstream(path + ".partial-0123456789abcdef") << "half";

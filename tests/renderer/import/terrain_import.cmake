@@ -23,7 +23,7 @@ eyrie_test(imagery_import_test LABEL unit
            SOURCES imagery_formats_test.cpp imagery_import_test.cpp imagery_places_test.cpp imagery_strips_test.cpp
            LINK eyrie_test_imagery GDAL::GDAL fmt::fmt)
 eyrie_test(terrain_kill_test LABEL unit LINK eyrie_test_imagery)
-eyrie_test(file_hash_test LABEL unit LINK eyrie_test_terrain)
+eyrie_test(file_hash_test LABEL unit LINK eyrie_test_terrain eyrie::test_support)
 eyrie_test(shard_plan_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(whole_file_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(terrain_shard_test LABEL unit LINK eyrie_test_imagery)
