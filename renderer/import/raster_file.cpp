@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/raster_file.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdlib>
 #include <memory>
 #include <set>
@@ -93,16 +95,23 @@ absl::Status checkWhole(const std::string& path, GDALDatasetH raster) {
                                            status.st_size, expected, whyUnreadable(path)));
 }
 
+std::string lowerCase(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
 }  // namespace
 
 std::string gdalPath(const std::string& path) {
     if (path.starts_with("/vsi"))
         return path;
     const std::string name = page::gdalName(path);
-    if (path.ends_with(".gz"))
+    const std::string plain = lowerCase(page::withoutQuery(path));
+    if (plain.ends_with(".gz"))
         return "/vsigzip/" + name;
-    if (path.ends_with(".zip"))
-        return "/vsizip/" + name;
+    if (plain.ends_with(".zip"))  // in braces it may go on after that
+        return plain.size() == path.size() ? "/vsizip/" + name : "/vsizip/{" + name + '}';
     return name;
 }
 

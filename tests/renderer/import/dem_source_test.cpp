@@ -20,6 +20,7 @@
 #include "renderer/import/terrain_synth.h"
 #include "renderer/import/whole_file.h"
 #include "tests/renderer/import/terrain_fixture.h"
+#include "tests/support/page_server.h"
 
 namespace eyrie::import {
 namespace {
@@ -299,6 +300,25 @@ TEST_F(DemSource, NamesARasterOfAnArchiveOfSeveralFiles) {
     const std::string inside = "/vsizip/" + archive + "/dem/1.asc";
     expectRefused(archive, absl::StatusCode::kInvalidArgument, "such as " + inside);
     EXPECT_TRUE(test::readDem(inside).ok());
+}
+
+TEST_F(DemSource, LooksIntoArchivesHoweverTheirNamesAreWritten) {
+    const std::string grid = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n";
+    GDALAllRegister();
+    const auto pack = [&](const std::string& name) {
+        VSILFILE* const file = VSIFOpenL(name.c_str(), "wb");
+        VSIFWriteL(grid.data(), 1, grid.size(), file);
+        VSIFCloseL(file);
+    };
+    const std::string zip = folder_.path("dem.zip");
+    pack("/vsizip/" + zip + "/dem.asc");
+    pack("/vsigzip/" + folder_.path("DEM.ASC.GZ"));
+    EXPECT_TRUE(test::readDem(folder_.path("DEM.ASC.GZ")).ok());
+    test::PageServer server(test::contents(zip));
+    const auto elsewhere = test::readDem(server.url("dem.zip?version=2"));
+    EXPECT_TRUE(elsewhere.ok()) << elsewhere.status();
+    std::filesystem::rename(zip, folder_.path("DEM.ZIP"));
+    EXPECT_TRUE(test::readDem(folder_.path("DEM.ZIP")).ok());
 }
 
 TEST_F(DemSource, RefusesWhatIsNoRaster) {
