@@ -208,6 +208,27 @@ TEST_F(ImageryImport, CutOffPictureIsDataLossAndLeavesNothing) {
     EXPECT_THAT(folder_.files(), testing::Not(testing::Contains(HasSubstr("with.eyt"))));
 }
 
+/// A raster written anew, as gdal_translate does with such arguments.
+void translate(const std::string& from, const std::string& to, const char* arguments) {
+    CPLStringList words(CSLTokenizeString(arguments));
+    const std::unique_ptr<GDALTranslateOptions, decltype(&GDALTranslateOptionsFree)> options(
+        GDALTranslateOptionsNew(words.List(), nullptr), &GDALTranslateOptionsFree);
+    const GDALDatasetUniquePtr file(GDALDataset::Open(from.c_str()));
+    ASSERT_NE(file, nullptr);
+    GDALClose(GDALTranslate(to.c_str(), GDALDataset::ToHandle(file.get()), options.get(), nullptr));
+}
+
+/// Of which GDAL makes grey by itself.
+TEST_F(ImageryImport, CutOffJpegIsDataLoss) {
+    const std::string path = folder_.path("cut.jpg");
+    translate(write(over(3000, 3000, 5, waves(300))), path, "-of JPEG -b 1 -b 2 -b 3");
+    ASSERT_TRUE(importError(test::slope(301, 301, 10), {path}).ok());
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+    const absl::Status status = importError(test::slope(301, 301, 10), {path});
+    EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss);
+    EXPECT_THAT(status.ToString(), HasSubstr("cut.jpg: its pixels cannot be read"));
+}
+
 /// Of 40 x 40 pixels around the slope of 30 x 30 posts.
 GDALDatasetUniquePtr createAround(const std::string& path, GDALDataType type,
                                   const std::vector<const char*>& options) {
@@ -297,14 +318,7 @@ TEST_F(ImageryImport, OfPrintersColoursIn16BitsIsAnErrorWithARemedy) {
     EXPECT_THAT(status.ToString(), HasSubstr("cmyk.tif: its band 1 is Cyan"));
     const std::string remedy = "-ot Byte -scale 0 65535 0 255 -co PHOTOMETRIC=CMYK";
     EXPECT_THAT(status.ToString(), HasSubstr("gdal_translate " + remedy));
-    {
-        CPLStringList words(CSLTokenizeString(remedy.c_str()));
-        GDALTranslateOptions* const options = GDALTranslateOptionsNew(words.List(), nullptr);
-        const GDALDatasetUniquePtr file(GDALDataset::Open(path.c_str()));
-        GDALClose(GDALTranslate(folder_.path("byte.tif").c_str(), GDALDataset::ToHandle(file.get()),
-                                options, nullptr));
-        GDALTranslateOptionsFree(options);
-    }
+    translate(path, folder_.path("byte.tif"), remedy.c_str());
     const auto file = imported(test::slope(30, 30, 10), {folder_.path("byte.tif")});
     ASSERT_NE(file, nullptr);
     expectColours(
