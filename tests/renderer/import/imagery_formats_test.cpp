@@ -150,6 +150,18 @@ TEST_F(ImageryImport, FingerprintsOfVirtualPicturesAreOfWhatTheyName) {
     EXPECT_EQ(fingerprint(10), first);
 }
 
+TEST_F(ImageryImport, FingerprintsAreOfWhatLiesBetweenTheEndsOfLargeFiles) {
+    constexpr std::size_t kEnd = 1 << 20;
+    const auto fingerprint = [&](char middle) {
+        std::ofstream(folder_.path("large"), std::ios::binary)
+            << std::string(kEnd, 'a') << std::string(kEnd, middle) << std::string(kEnd, 'a');
+        return pictureFingerprint({folder_.path("large")});
+    };
+    const std::uint64_t first = fingerprint('b');
+    EXPECT_NE(fingerprint('c'), first);
+    EXPECT_EQ(fingerprint('b'), first);
+}
+
 TEST_F(ImageryImport, LeavesHolesWhereABandsOwnMaskHides) {
     const std::string path = write(over(290, 290, 10, [](double, double) {
         return Rgba{10, 200, 30, 255};
