@@ -196,11 +196,12 @@ public:
         return absl::OkStatus();
     }
 
-    absl::StatusOr<OpenImagery> open(std::uint64_t cacheBytes) {
+    absl::StatusOr<OpenImagery> open(std::uint64_t cacheBytes, const ImportControl& control) {
         if (layers_.empty())
             return absl::InvalidArgumentError(fmt::format(
                 "{}: no picture overlaps the terrain; check their coordinates and CRS (gdalinfo)",
                 names_));
+        RETURN_IF_ERROR(findMostOfAll(control));
         RETURN_IF_ERROR(turnAllToBytes());
         for (const Layer& layer : layers_)
             notes_.insert(notes_.end(), layer.file.notes.begin(), layer.file.notes.end());
@@ -229,6 +230,17 @@ public:
     }
 
 private:
+    absl::Status findMostOfAll(const ImportControl& control) {
+        for (std::size_t k = 0; k < layers_.size(); ++k)
+            RETURN_IF_ERROR(findMost(layers_[k].file, [&](double fraction) {
+                control.report(
+                    "looking for the brightest",
+                    (static_cast<double>(k) + fraction) / static_cast<double>(layers_.size()));
+                return control.check();
+            }));
+        return absl::OkStatus();
+    }
+
     /// By the brightest of all.
     absl::Status turnAllToBytes() {
         double most = 0;
@@ -328,7 +340,7 @@ absl::StatusOr<OpenImagery> openImagery(const std::vector<std::string>& paths,
         RETURN_IF_ERROR(control.check());
         RETURN_IF_ERROR(overlay.add(path));
     }
-    return overlay.open(cacheBytes);
+    return overlay.open(cacheBytes, control);
 }
 
 }  // namespace eyrie::import

@@ -49,8 +49,11 @@ struct OpenImagery {
 /// Pictures in strips are decoded about once where GDAL's cache holds the rows that a row of
 /// texture tiles takes: it grows for them, by `cacheBytes` at most. Notes say of which it cannot.
 ///
+/// Of pictures of more than 8 bits that do not say what the most may be all pixels are read first,
+/// which is reported as "looking for the brightest".
+///
 /// Errors, naming the file: NotFound, InvalidArgument (no picture, not to be brought to the
-/// terrain, none overlaps it), ResourceExhausted (more texels than an .eyt holds).
+/// terrain, none overlaps it), ResourceExhausted (more texels than an .eyt holds), Cancelled.
 absl::StatusOr<OpenImagery> openImagery(const std::vector<std::string>& paths,
                                         const terrain::GridFrame& frame, const std::string& crsWkt,
                                         std::uint64_t cacheBytes, const ImportControl& control);

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <stop_token>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,6 +15,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "renderer/import/geotiff_writer.h"
 #include "renderer/import/picture_fingerprint.h"
 #include "tests/renderer/import/imagery_import.h"
 
@@ -82,6 +85,7 @@ TEST_F(ImageryImport, KnowsWhatIsOpaqueInMoreThan8Bits) {
     for (const Kind& kind : {Kind{"16 bits", GDT_UInt16, nullptr, 65535},
                              Kind{"12 bits", GDT_UInt16, "NBITS=12", 4095},
                              Kind{"8 bits of 16", GDT_UInt16, nullptr, 255},
+                             Kind{"12 bits without a tag", GDT_UInt16, nullptr, 4000},
                              Kind{"signed", GDT_Int16, nullptr, 32767}}) {
         const std::string path = folder_.path(std::string(kind.name) + ".tif");
         {
@@ -372,6 +376,21 @@ TEST_F(ImageryImport, TurnsPicturesBesideEachOtherTo8BitsByTheBrightestOfAll) {
             },
             4);
     }
+}
+
+TEST_F(ImageryImport, IsCalledOffWhileItLooksForTheBrightest) {
+    const std::string dem = folder_.path("dem.tif");
+    const std::string picture = folder_.path("half.tif");
+    ASSERT_TRUE(writeGeoTiff(test::slope(30, 30, 10), dem).ok());
+    writeHalf(picture, false, 500);
+    std::stop_source stop;
+    const ImportControl control{[&](std::string_view stage, double) {
+                                    if (stage == "looking for the brightest")
+                                        stop.request_stop();
+                                },
+                                stop.get_token()};
+    EXPECT_TRUE(absl::IsCancelled(
+        importTerrain({dem}, folder_.path("out.eyt"), {.imagery = {picture}}, control).status()));
 }
 
 }  // namespace
