@@ -69,6 +69,29 @@ bool isNarrow(GDALRasterBand& band) {
     return band.GetMetadataItem("NBITS", "IMAGE_STRUCTURE") != nullptr;
 }
 
+/// Refuses bands that are no colours, or not of as many bits as the first.
+absl::Status checkTypes(const std::string& path, GDALDataset& dataset,
+                        const std::array<int, 3>& colours) {
+    const auto typeOf = [&](int band) { return dataset.GetRasterBand(band)->GetRasterDataType(); };
+    const GDALDataType first = typeOf(colours[0]);
+    for (const int band : colours) {
+        const GDALDataType type = typeOf(band);
+        if (type != GDT_Byte && type != GDT_UInt16 && type != GDT_Int16)
+            return invalid(path,
+                           fmt::format("its band {} holds {} values, not colours of 8 or 16 bits; "
+                                       "turn it into them with gdal_translate -ot Byte -scale",
+                                       band, GDALGetDataTypeName(type)));
+        if ((type == GDT_Byte) != (first == GDT_Byte))
+            return invalid(path,
+                           fmt::format("its band {} holds {} values and its band {} {} ones; turn "
+                                       "those of 16 bits into 8 first (gdal_translate -ot Byte, "
+                                       "with -scale_N for each such band N)",
+                                       colours[0], GDALGetDataTypeName(first), band,
+                                       GDALGetDataTypeName(type)));
+    }
+    return absl::OkStatus();
+}
+
 std::string turnedToBytes(const std::string& path, double most) {
     return fmt::format("{}: values of 0 to {} turned to 8 bits", path, most);
 }
@@ -79,11 +102,7 @@ absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& data
     rule.alpha = bandTagged(dataset, GCI_AlphaBand);
     rule.colours = colourBands(dataset, rule.alpha);
     GDALRasterBand* const first = dataset.GetRasterBand(rule.colours[0]);
-    const GDALDataType type = first->GetRasterDataType();
-    if (type != GDT_Byte && type != GDT_UInt16 && type != GDT_Int16)
-        return invalid(path, fmt::format("holds {} values, not colours of 8 or 16 bits; turn it "
-                                         "into them with gdal_translate -ot Byte -scale",
-                                         GDALGetDataTypeName(type)));
+    RETURN_IF_ERROR(checkTypes(path, dataset, rule.colours));
     const GDALColorInterp tag = first->GetColorInterpretation();
     if (tag >= GCI_HueBand && tag <= GCI_YCbCr_CrBand)
         return invalid(path, fmt::format("its band {} is {}, and not red or grey; {}",
@@ -102,7 +121,8 @@ absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& data
         if (isSet != 0)
             rule.nodata[c] = value;
     }
-    if ((type != GDT_Byte || isNarrow(*first)) && rule.palette == nullptr) {
+    const bool isByte = first->GetRasterDataType() == GDT_Byte;
+    if ((!isByte || isNarrow(*first)) && rule.palette == nullptr) {
         if (const auto most = mostByTag(dataset, rule.colours)) {
             rule.bytePerValue = 255 / *most;
             notes.push_back(turnedToBytes(path, *most));

@@ -31,7 +31,7 @@ struct ColourFile {
 /// Looks at everything but the pixels. Grey, grey with alpha, palette, RGB and RGBA of 8 or 16
 /// bits; of more bands those tagged red, green and blue, or the first three. 16 bits become 8 by
 /// the NBITS tag, or by findMost() and turnToBytes(). Errors: those of openRaster; InvalidArgument
-/// (not colours).
+/// (not colours, or of several depths).
 absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gdal);
 
 /// Told how far a look at all pixels is, 0 to 1; an error calls it off.

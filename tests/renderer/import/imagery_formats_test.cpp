@@ -215,6 +215,31 @@ TEST_F(ImageryImport, RefusesWhatIsNoPicture) {
                 HasSubstr("is no raster"));
 }
 
+TEST_F(ImageryImport, RefusesColoursOfSeveralDepthsNamingTheBand) {
+    write(over(290, 290, 10, waves(300)));
+    const auto errorOf = [&](const char* green, const char* blue) {
+        std::ofstream vrt(folder_.path("mixed.vrt"));
+        vrt << "<VRTDataset rasterXSize=\"37\" rasterYSize=\"37\">";
+        int number = 0;
+        for (const char* type : {"Byte", green, blue})
+            vrt << fmt::format(
+                "<VRTRasterBand dataType=\"{0}\" band=\"{1}\"><SimpleSource>"
+                "<SourceFilename relativeToVRT=\"1\">picture.tif</SourceFilename>"
+                "<SourceBand>{1}</SourceBand></SimpleSource></VRTRasterBand>",
+                type, ++number);
+        vrt << "</VRTDataset>";
+        vrt.close();
+        return importError(test::slope(30, 30, 10), {folder_.path("mixed.vrt")});
+    };
+    EXPECT_TRUE(errorOf("Byte", "Byte").ok());
+    const absl::Status deep = errorOf("UInt16", "Byte");
+    EXPECT_EQ(deep.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(deep.ToString(), HasSubstr("its band 1 holds Byte values and its band 2 UInt16"));
+    const absl::Status floats = errorOf("Byte", "Float32");
+    EXPECT_EQ(floats.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(floats.ToString(), HasSubstr("its band 3 holds Float32 values"));
+}
+
 TEST_F(ImageryImport, CutOffPictureIsDataLossAndLeavesNothing) {
     const std::string path = write(over(3000, 3000, 5, waves(300)));
     std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
