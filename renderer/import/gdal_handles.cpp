@@ -53,6 +53,8 @@ void QuietGdal::note(CPLErr severity, CPLErrorNum, const char* message) {
     auto& self = *static_cast<QuietGdal*>(CPLGetErrorHandlerUserData());
     if (severity >= CE_Failure && self.error_.empty())
         self.error_ = message;
+    if (severity == CE_Warning && self.warning_.empty())
+        self.warning_ = message;
 }
 
 std::array<double, 6> geoTransform(const Georeference& g) {

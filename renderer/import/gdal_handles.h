@@ -42,11 +42,14 @@ public:
 
     /// The first failure since the last call, "" for none.
     std::string takeError() { return std::exchange(error_, {}); }
+    /// And the first warning.
+    std::string takeWarning() { return std::exchange(warning_, {}); }
 
 private:
     static void CPL_STDCALL note(CPLErr severity, CPLErrorNum, const char* message);
 
     std::string error_;
+    std::string warning_;
     std::array<bool, 5> isSet_{};  ///< by this one, of what it sets
 };
 

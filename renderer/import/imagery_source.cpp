@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -66,6 +67,8 @@ public:
         return absl::OkStatus();
     }
 
+    std::vector<std::string> findings() const override { return findings_; }
+
 private:
     /// Texels over so many posts whose middle lies before the last of them.
     static std::int64_t middlesWithin(std::int32_t posts, const TexturePyramid& pyramid) {
@@ -96,6 +99,7 @@ private:
             return absl::DataLossError(fmt::format("{}: its pixels cannot be read ({}); {}",
                                                    layer.file.path, gdal.takeError(),
                                                    whyUnreadable(layer.file.path)));
+        note(layer.file.path, gdal.takeWarning());
         const fabric::Rgba* from = buffer_.data();
         for (std::int32_t v = 0; v < part.rows; ++v) {
             fabric::Rgba* to = out + (part.y + v - window.y) * window.columns + (part.x - window.x);
@@ -104,6 +108,14 @@ private:
                     *to = *from;
         }
         return absl::OkStatus();
+    }
+
+    /// The first of each picture.
+    void note(const std::string& path, const std::string& warning) {
+        if (!warning.empty() && warned_.insert(path).second)
+            findings_.push_back(fmt::format(
+                "{}: some of its pixels may be wrong ({}); look at them, or have it made anew",
+                path, warning));
     }
 
     /// The last texels' middles may lie beyond the last posts, where a picture of all of the
@@ -149,6 +161,8 @@ private:
     std::int64_t seenColumns_;  ///< whose middles lie within the terrain: all, or all but the last
     std::int64_t seenRows_;
     std::vector<fabric::Rgba> buffer_;
+    std::set<std::string> warned_;  ///< paths
+    std::vector<std::string> findings_;
 };
 
 /// Lays pictures over a terrain.

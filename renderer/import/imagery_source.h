@@ -27,6 +27,8 @@ public:
     /// The texels of a window of the finest level, row by row, those outside of the level as its
     /// nearest; alpha 0 where there is no picture. Errors: DataLoss.
     virtual absl::Status read(const terrain::TexelRect& window, std::span<fabric::Rgba> out) = 0;
+    /// What was found in the texels read so far, for people.
+    virtual std::vector<std::string> findings() const = 0;
     /// Bytes of memory that reading takes beside what GDAL's cache has otherwise.
     virtual std::uint64_t readingBytes() const = 0;
 };

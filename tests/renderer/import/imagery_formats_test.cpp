@@ -270,6 +270,28 @@ TEST_F(ImageryImport, CutOffJpegIsDataLoss) {
     EXPECT_THAT(status.ToString(), HasSubstr("cut.jpg: its pixels cannot be read"));
 }
 
+/// Of JPEGs in a GeoTIFF libjpeg's warnings stop nothing.
+TEST_F(ImageryImport, SaysOfWhichPicturesPixelsMayBeWrong) {
+    const std::string path = folder_.path("damaged.tif");
+    translate(write(over(3000, 3000, 5, waves(300))), path,
+              "-b 1 -b 2 -b 3 -co COMPRESS=JPEG -co TILED=YES");
+    {
+        const std::string bytes = test::contents(path);
+        const std::size_t scan = bytes.rfind("\xff\xda", bytes.size() / 2);
+        ASSERT_NE(scan, std::string::npos);
+        std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+        file.seekp(static_cast<std::streamoff>(scan + 150));
+        file << std::string(100, '\0');
+    }
+    const std::string dem = folder_.path("dem.tif");
+    ASSERT_TRUE(writeGeoTiff(test::slope(301, 301, 10), dem).ok());
+    const auto report = importTerrain({dem}, folder_.path("out.eyt"), {.imagery = {path}}, {});
+    ASSERT_TRUE(report.ok()) << report.status();
+    EXPECT_THAT(report->notes, testing::Contains(testing::AllOf(
+                                   HasSubstr("damaged.tif: some of its pixels may be wrong"),
+                                   HasSubstr("Corrupt JPEG data"))));
+}
+
 /// Of 40 x 40 pixels around the slope of 30 x 30 posts.
 GDALDatasetUniquePtr createAround(const std::string& path, GDALDataType type,
                                   const std::vector<const char*>& options) {
