@@ -31,6 +31,7 @@ struct ColourRule {
     double bytePerValue = 1;
     bool isByBrightest = false;  ///< no value is said to be the most
     double alphaBytePerValue = 1;
+    bool isOpaqueByLargest = false;  ///< nor of alpha
 };
 
 int bandTagged(GDALDataset& dataset, GDALColorInterp tag) {
@@ -68,15 +69,27 @@ bool isNarrow(GDALRasterBand& band) {
     return band.GetMetadataItem("NBITS", "IMAGE_STRUCTURE") != nullptr;
 }
 
-/// What alpha of other than 8 bits is where nothing lets through: by its tag, its type, or 255 of
-/// one that holds no more.
-double opaque(GDALRasterBand& alpha) {
-    if (const char* bits = alpha.GetMetadataItem("NBITS", "IMAGE_STRUCTURE"))
-        return std::exp2(std::clamp(std::atoi(bits), 1, 16)) - 1;
-    if (std::array<double, 2> range{};
-        alpha.ComputeRasterMinMax(FALSE, range.data()) == CE_None && range[1] <= 255)
-        return 255;
-    return alpha.GetRasterDataType() == GDT_Int16 ? 32767 : 65535;
+/// Refuses bands that are no colours, or not of as many bits as the first.
+absl::Status checkTypes(const std::string& path, GDALDataset& dataset,
+                        const std::array<int, 3>& colours) {
+    const auto typeOf = [&](int band) { return dataset.GetRasterBand(band)->GetRasterDataType(); };
+    const GDALDataType first = typeOf(colours[0]);
+    for (const int band : colours) {
+        const GDALDataType type = typeOf(band);
+        if (type != GDT_Byte && type != GDT_UInt16 && type != GDT_Int16)
+            return invalid(path,
+                           fmt::format("its band {} holds {} values, not colours of 8 or 16 bits; "
+                                       "turn it into them with gdal_translate -ot Byte -scale",
+                                       band, GDALGetDataTypeName(type)));
+        if ((type == GDT_Byte) != (first == GDT_Byte))
+            return invalid(path,
+                           fmt::format("its band {} holds {} values and its band {} {} ones; turn "
+                                       "those of 16 bits into 8 first (gdal_translate -ot Byte, "
+                                       "with -scale_N for each such band N)",
+                                       colours[0], GDALGetDataTypeName(first), band,
+                                       GDALGetDataTypeName(type)));
+    }
+    return absl::OkStatus();
 }
 
 std::string turnedToBytes(const std::string& path, double most) {
@@ -89,11 +102,7 @@ absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& data
     rule.alpha = bandTagged(dataset, GCI_AlphaBand);
     rule.colours = colourBands(dataset, rule.alpha);
     GDALRasterBand* const first = dataset.GetRasterBand(rule.colours[0]);
-    const GDALDataType type = first->GetRasterDataType();
-    if (type != GDT_Byte && type != GDT_UInt16 && type != GDT_Int16)
-        return invalid(path, fmt::format("holds {} values, not colours of 8 or 16 bits; turn it "
-                                         "into them with gdal_translate -ot Byte -scale",
-                                         GDALGetDataTypeName(type)));
+    RETURN_IF_ERROR(checkTypes(path, dataset, rule.colours));
     const GDALColorInterp tag = first->GetColorInterpretation();
     if (tag >= GCI_HueBand && tag <= GCI_YCbCr_CrBand)
         return invalid(path, fmt::format("its band {} is {}, and not red or grey; {}",
@@ -112,7 +121,8 @@ absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& data
         if (isSet != 0)
             rule.nodata[c] = value;
     }
-    if ((type != GDT_Byte || isNarrow(*first)) && rule.palette == nullptr) {
+    const bool isByte = first->GetRasterDataType() == GDT_Byte;
+    if ((!isByte || isNarrow(*first)) && rule.palette == nullptr) {
         if (const auto most = mostByTag(dataset, rule.colours)) {
             rule.bytePerValue = 255 / *most;
             notes.push_back(turnedToBytes(path, *most));
@@ -121,9 +131,11 @@ absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& data
         }
     }
     if (rule.alpha != 0) {
-        GDALRasterBand& alpha = *dataset.GetRasterBand(rule.alpha);
-        if (alpha.GetRasterDataType() != GDT_Byte || isNarrow(alpha))
-            rule.alphaBytePerValue = 255 / opaque(alpha);
+        if (const auto most = mostByTag(dataset, {rule.alpha, rule.alpha, rule.alpha}))
+            rule.alphaBytePerValue = 255 / *most;
+        else
+            rule.isOpaqueByLargest =
+                dataset.GetRasterBand(rule.alpha)->GetRasterDataType() != GDT_Byte;
     }
     if (dataset.GetRasterCount() > 4 || (dataset.GetRasterCount() == 4 && rule.alpha == 0))
         notes.push_back(fmt::format("{}: bands {}, {} and {} of {} taken for red, green and blue",
@@ -231,16 +243,33 @@ public:
         return CE_None;
     }
 
-    /// Of all values that are not in a hole, at least 0. What cannot be read is left out: it is
-    /// told when it is asked for.
-    double brightest() {
+    const ColourRule& rule() const { return rule_; }
+
+    /// Takes the largest alpha for opaque where that is wanted, and returns the largest value that
+    /// is not in a hole, at least 0. What cannot be read is left out: it is told when it is asked
+    /// for.
+    absl::StatusOr<int> findMost(const Watch& watch) {
         const Block block =
             blockOf(*GDALDataset::FromHandle(source_.get())->GetRasterBand(rule_.colours[0]));
         int most = 0;
-        for (int j = 0; j < nRasterYSize; j += block.rows)
-            for (int i = 0; i < nRasterXSize; i += block.columns)
-                most = std::max(most, brightest(i, j, std::min(block.columns, nRasterXSize - i),
-                                                std::min(block.rows, nRasterYSize - j)));
+        int opaque = 255;  // of masks that are of 16 bits for no reason, too
+        for (int j = 0; j < nRasterYSize; j += block.rows) {
+            RETURN_IF_ERROR(watch(static_cast<double>(j) / nRasterYSize));
+            const int rows = std::min(block.rows, nRasterYSize - j);
+            for (int i = 0; i < nRasterXSize; i += block.columns) {
+                const int columns = std::min(block.columns, nRasterXSize - i);
+                if (readValues(i, j, columns, rows) != CE_None)
+                    continue;
+                const std::size_t count =
+                    static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+                most = std::max(most, brightest(count));
+                const auto alphas = values_.begin() + static_cast<std::ptrdiff_t>(3 * count);
+                if (rule_.isOpaqueByLargest)
+                    opaque = std::max(opaque, *std::max_element(alphas, values_.end()));
+            }
+        }
+        if (rule_.isOpaqueByLargest)
+            rule_.alphaBytePerValue = 255.0 / opaque;
         return most;
     }
 
@@ -272,11 +301,8 @@ private:
                             GF_Read, i, j, columns, rows, out, columns, rows, GDT_Int32, 0, 0);
     }
 
-    int brightest(int i, int j, int columns, int rows) {
-        if (readValues(i, j, columns, rows) != CE_None)
-            return 0;
-        const std::size_t count =
-            static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+    /// Of so many pixels in values_.
+    int brightest(std::size_t count) const {
         int most = 0;
         for (std::size_t k = 0; k < count; ++k) {
             if (turned(k, count)[3] == 0)
@@ -381,12 +407,20 @@ absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gd
     int columns = GDALGetRasterXSize(dataset.get());
     cutToOneTurn(file.isGeoreferenced ? crs : nullptr, reference, columns);
     auto colours = std::make_unique<ColourDataset>(std::move(dataset), columns, rule);
-    if (rule.isByBrightest)
-        file.brightest = colours->brightest();
     file.dataset.reset(GDALDataset::ToHandle(colours.release()));
     if (file.isGeoreferenced)
         GDALSetGeoTransform(file.dataset.get(), geoTransform(reference).data());
     return file;
+}
+
+absl::Status findMost(ColourFile& file, const Watch& watch) {
+    auto& colours = static_cast<ColourDataset&>(*GDALDataset::FromHandle(file.dataset.get()));
+    if (!colours.rule().isByBrightest && !colours.rule().isOpaqueByLargest)
+        return absl::OkStatus();
+    ASSIGN_OR_RETURN(const int most, colours.findMost(watch));
+    if (colours.rule().isByBrightest)
+        file.brightest = most;
+    return absl::OkStatus();
 }
 
 void turnToBytes(ColourFile& file, double most) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,17 +22,24 @@ struct ColourFile {
     Dataset dataset;
     bool isGeoreferenced = false;
     SpatialReference crs;  ///< null: none
-    /// The largest value outside of holes, at least 0, of a picture of more than 8 bits that does
-    /// not say what the most may be: nothing may be read before turnToBytes().
+    /// The largest value outside of holes, at least 0, by findMost(), of a picture of more than 8
+    /// bits that does not say what the most may be: nothing may be read before turnToBytes().
     std::optional<double> brightest;
     std::vector<std::string> notes;
 };
 
-/// Looks at everything but the pixels (of 16-bit files at these, too). Grey, grey with alpha,
-/// palette, RGB and RGBA of 8 or 16 bits; of more bands those tagged red, green and blue, or the
-/// first three. 16 bits become 8 by the NBITS tag, or by turnToBytes(). Errors: those of
-/// openRaster; InvalidArgument (not colours).
+/// Looks at everything but the pixels. Grey, grey with alpha, palette, RGB and RGBA of 8 or 16
+/// bits; of more bands those tagged red, green and blue, or the first three. 16 bits become 8 by
+/// the NBITS tag, or by findMost() and turnToBytes(). Errors: those of openRaster; InvalidArgument
+/// (not colours, or of several depths).
 absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gdal);
+
+/// Told how far a look at all pixels is, 0 to 1; an error calls it off.
+using Watch = std::function<absl::Status(double fraction)>;
+
+/// Before anything is read: looks for the most that values of other than 8 bits come to where no
+/// tag says it, of colours and of alpha, whose most is opaque. Of others it looks at nothing.
+absl::Status findMost(ColourFile& file, const Watch& watch);
 
 /// Says what value of a picture with `brightest` is 255: that of all pictures beside it, so that
 /// one colour is the same in each.

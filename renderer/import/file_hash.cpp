@@ -21,6 +21,7 @@
 #include "fabric/status.h"
 #include "renderer/import/raster_file.h"
 #include "renderer/import/whole_file.h"
+#include "renderer/page/remote_name.h"
 
 namespace eyrie::import {
 namespace {
@@ -90,17 +91,22 @@ absl::Status leave(const FileState& file, const std::string& folder, std::uint64
     return out.commit();
 }
 
-struct Hashed {
-    std::uint64_t hash = 0;
-    std::uint64_t bytes = 0;  ///< fewer than the file's where it could not be read to its end
-};
+/// Of fewer bytes than the file has: GDAL says of no read whether it failed or the file ended.
+absl::Status cutShort(const std::string& path, std::uint64_t got, std::uint64_t all) {
+    return absl::Status(
+        page::isRemote(path) ? absl::StatusCode::kUnavailable : absl::StatusCode::kDataLoss,
+        fmt::format("{}: {} of its {} bytes came; {}", path, got, all, whyUnreadable(path)));
+}
 
-absl::StatusOr<Hashed> hashOfBytes(const std::string& path, const std::stop_token& stop) {
+absl::StatusOr<std::uint64_t> hashOfBytes(const std::string& path, const std::stop_token& stop) {
     const std::unique_ptr<VSILFILE, Releaser<VSIFCloseL>> file(VSIFOpenL(path.c_str(), "rb"));
     if (!file) {
         RETURN_IF_ERROR(checkOpenFiles(path));
         return absl::NotFoundError(fmt::format("{}: no such file, or not readable", path));
     }
+    VSIFSeekL(file.get(), 0, SEEK_END);
+    const std::uint64_t all = VSIFTellL(file.get());
+    VSIFSeekL(file.get(), 0, SEEK_SET);
     const std::unique_ptr<XXH64_state_t, Releaser<XXH64_freeState>> state(XXH64_createState());
     XXH64_reset(state.get(), 0);
     std::vector<char> buffer(std::size_t{1} << 20);
@@ -111,7 +117,9 @@ absl::StatusOr<Hashed> hashOfBytes(const std::string& path, const std::stop_toke
         XXH64_update(state.get(), buffer.data(), got);
         bytes += got;
     }
-    return Hashed{XXH64_digest(state.get()), bytes};
+    if (bytes < all)
+        return cutShort(path, bytes, all);
+    return XXH64_digest(state.get());
 }
 
 }  // namespace
@@ -123,11 +131,11 @@ absl::StatusOr<std::uint64_t> fileHash(const std::string& path, const std::strin
         if (const std::optional<std::uint64_t> hash = noted(*before, folder))
             return *hash;
     const bool shows = before && showsChanges(*before);
-    ASSIGN_OR_RETURN(const Hashed read, hashOfBytes(path, stop));
+    ASSIGN_OR_RETURN(const std::uint64_t hash, hashOfBytes(path, stop));
     // Not of a file that was written meanwhile. Who cannot note it has it all the same.
-    if (shows && read.bytes == before->bytes && stateOf(path) == before)
-        leave(*before, folder, read.hash).IgnoreError();
-    return read.hash;
+    if (shows && stateOf(path) == before)
+        leave(*before, folder, hash).IgnoreError();
+    return hash;
 }
 
 void noteHash(const std::string& path, const std::string& folder, const std::stop_token& stop) {

@@ -14,8 +14,9 @@ namespace eyrie::import {
 
 /// Of a file by any name that GDAL opens. With a `folder`, unless that is empty, from what is noted
 /// there; else it reads all bytes and, of a large file, notes the hash there if it can. Any number
-/// of threads and processes at once. Errors: NotFound, those of checkOpenFiles; Cancelled, between
-/// two megabytes.
+/// of threads and processes at once. Errors: NotFound, those of checkOpenFiles; Unavailable and
+/// DataLoss, of which not all bytes can be read, elsewhere and here; Cancelled, between two
+/// megabytes.
 absl::StatusOr<std::uint64_t> fileHash(const std::string& path, const std::string& folder,
                                        const std::stop_token& stop = {});
 

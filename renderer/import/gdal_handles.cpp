@@ -17,9 +17,11 @@ struct Setting {
     const char* name;
     const char* value;
 };
-/// Without the last three GDAL waits for a server that has stopped to answer for ever.
+/// Without the second one GDAL makes grey of what a JPEG lacks at its end, and without the last
+/// three it waits for a server that has stopped to answer for ever.
 constexpr std::array kSettings = {
     Setting{"CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO"},
+    Setting{"GDAL_ERROR_ON_LIBJPEG_WARNING", "YES"},
     Setting{"GDAL_HTTP_CONNECTTIMEOUT", "10"},
     Setting{"GDAL_HTTP_LOW_SPEED_TIME", "20"},
     Setting{"GDAL_HTTP_LOW_SPEED_LIMIT", "100"},
@@ -51,6 +53,8 @@ void QuietGdal::note(CPLErr severity, CPLErrorNum, const char* message) {
     auto& self = *static_cast<QuietGdal*>(CPLGetErrorHandlerUserData());
     if (severity >= CE_Failure && self.error_.empty())
         self.error_ = message;
+    if (severity == CE_Warning && self.warning_.empty())
+        self.warning_ = message;
 }
 
 std::array<double, 6> geoTransform(const Georeference& g) {

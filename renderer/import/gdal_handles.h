@@ -29,9 +29,10 @@ using Dataset = std::unique_ptr<void, Releaser<GDALClose>>;
 using SpatialReference = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>,
                                          Releaser<OSRDestroySpatialReference>>;
 
-/// While it lives, on this thread, keeps what GDAL would print, has no sidecar files written, and
-/// gives up servers that send nothing for 20 seconds. What the user has set stays as it is
-/// (GDAL_HTTP_CONNECTTIMEOUT, GDAL_HTTP_LOW_SPEED_TIME and _LIMIT, from the environment).
+/// While it lives, on this thread, keeps what GDAL would print, has no sidecar files written, takes
+/// damaged JPEGs for unreadable, and gives up servers that send nothing for 20 seconds. What the
+/// user has set stays as it is (GDAL_ERROR_ON_LIBJPEG_WARNING, GDAL_HTTP_CONNECTTIMEOUT,
+/// GDAL_HTTP_LOW_SPEED_TIME and _LIMIT, from the environment).
 class QuietGdal {
 public:
     QuietGdal();
@@ -41,12 +42,15 @@ public:
 
     /// The first failure since the last call, "" for none.
     std::string takeError() { return std::exchange(error_, {}); }
+    /// And the first warning.
+    std::string takeWarning() { return std::exchange(warning_, {}); }
 
 private:
     static void CPL_STDCALL note(CPLErr severity, CPLErrorNum, const char* message);
 
     std::string error_;
-    std::array<bool, 4> isSet_{};  ///< by this one, of what it sets
+    std::string warning_;
+    std::array<bool, 5> isSet_{};  ///< by this one, of what it sets
 };
 
 /// Pixel to projected metres: (x, y) = origin + column * perColumn + row * perRow, from the outer

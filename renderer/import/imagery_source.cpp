@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -66,6 +67,8 @@ public:
         return absl::OkStatus();
     }
 
+    std::vector<std::string> findings() const override { return findings_; }
+
 private:
     /// Texels over so many posts whose middle lies before the last of them.
     static std::int64_t middlesWithin(std::int32_t posts, const TexturePyramid& pyramid) {
@@ -96,6 +99,7 @@ private:
             return absl::DataLossError(fmt::format("{}: its pixels cannot be read ({}); {}",
                                                    layer.file.path, gdal.takeError(),
                                                    whyUnreadable(layer.file.path)));
+        note(layer.file.path, gdal.takeWarning());
         const fabric::Rgba* from = buffer_.data();
         for (std::int32_t v = 0; v < part.rows; ++v) {
             fabric::Rgba* to = out + (part.y + v - window.y) * window.columns + (part.x - window.x);
@@ -104,6 +108,14 @@ private:
                     *to = *from;
         }
         return absl::OkStatus();
+    }
+
+    /// The first of each picture.
+    void note(const std::string& path, const std::string& warning) {
+        if (!warning.empty() && warned_.insert(path).second)
+            findings_.push_back(fmt::format(
+                "{}: some of its pixels may be wrong ({}); look at them, or have it made anew",
+                path, warning));
     }
 
     /// The last texels' middles may lie beyond the last posts, where a picture of all of the
@@ -149,6 +161,8 @@ private:
     std::int64_t seenColumns_;  ///< whose middles lie within the terrain: all, or all but the last
     std::int64_t seenRows_;
     std::vector<fabric::Rgba> buffer_;
+    std::set<std::string> warned_;  ///< paths
+    std::vector<std::string> findings_;
 };
 
 /// Lays pictures over a terrain.
@@ -196,11 +210,12 @@ public:
         return absl::OkStatus();
     }
 
-    absl::StatusOr<OpenImagery> open(std::uint64_t cacheBytes) {
+    absl::StatusOr<OpenImagery> open(std::uint64_t cacheBytes, const ImportControl& control) {
         if (layers_.empty())
             return absl::InvalidArgumentError(fmt::format(
                 "{}: no picture overlaps the terrain; check their coordinates and CRS (gdalinfo)",
                 names_));
+        RETURN_IF_ERROR(findMostOfAll(control));
         RETURN_IF_ERROR(turnAllToBytes());
         for (const Layer& layer : layers_)
             notes_.insert(notes_.end(), layer.file.notes.begin(), layer.file.notes.end());
@@ -229,6 +244,17 @@ public:
     }
 
 private:
+    absl::Status findMostOfAll(const ImportControl& control) {
+        for (std::size_t k = 0; k < layers_.size(); ++k)
+            RETURN_IF_ERROR(findMost(layers_[k].file, [&](double fraction) {
+                control.report(
+                    "looking for the brightest",
+                    (static_cast<double>(k) + fraction) / static_cast<double>(layers_.size()));
+                return control.check();
+            }));
+        return absl::OkStatus();
+    }
+
     /// By the brightest of all.
     absl::Status turnAllToBytes() {
         double most = 0;
@@ -328,7 +354,7 @@ absl::StatusOr<OpenImagery> openImagery(const std::vector<std::string>& paths,
         RETURN_IF_ERROR(control.check());
         RETURN_IF_ERROR(overlay.add(path));
     }
-    return overlay.open(cacheBytes);
+    return overlay.open(cacheBytes, control);
 }
 
 }  // namespace eyrie::import

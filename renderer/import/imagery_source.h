@@ -27,6 +27,8 @@ public:
     /// The texels of a window of the finest level, row by row, those outside of the level as its
     /// nearest; alpha 0 where there is no picture. Errors: DataLoss.
     virtual absl::Status read(const terrain::TexelRect& window, std::span<fabric::Rgba> out) = 0;
+    /// What was found in the texels read so far, for people.
+    virtual std::vector<std::string> findings() const = 0;
     /// Bytes of memory that reading takes beside what GDAL's cache has otherwise.
     virtual std::uint64_t readingBytes() const = 0;
 };
@@ -49,8 +51,11 @@ struct OpenImagery {
 /// Pictures in strips are decoded about once where GDAL's cache holds the rows that a row of
 /// texture tiles takes: it grows for them, by `cacheBytes` at most. Notes say of which it cannot.
 ///
+/// Of pictures of more than 8 bits that do not say what the most may be all pixels are read first,
+/// which is reported as "looking for the brightest".
+///
 /// Errors, naming the file: NotFound, InvalidArgument (no picture, not to be brought to the
-/// terrain, none overlaps it), ResourceExhausted (more texels than an .eyt holds).
+/// terrain, none overlaps it), ResourceExhausted (more texels than an .eyt holds), Cancelled.
 absl::StatusOr<OpenImagery> openImagery(const std::vector<std::string>& paths,
                                         const terrain::GridFrame& frame, const std::string& crsWkt,
                                         std::uint64_t cacheBytes, const ImportControl& control);

@@ -7,10 +7,10 @@
 
 namespace eyrie::import {
 
-/// Tells pictures from others, in their order, by their sizes and first and last MiB: pictures may
-/// be too large to read them all for that. Names do not count, since machines see a shared folder
-/// under different ones; but what of a file they name does, and so do the files that virtual ones
-/// name. 0 for none.
+/// Tells pictures from others, in their order, by their sizes, first and last MiB, and 64 pieces of
+/// what is between: pictures may be too large to read them all for that. Names do not count, since
+/// machines see a shared folder under different ones; but what of a file they name does, and so do
+/// the files that virtual ones name. 0 for none.
 std::uint64_t pictureFingerprint(const std::vector<std::string>& paths);
 
 /// Tells pictures on this machine from what they were before, by the names, sizes and times of last

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/raster_file.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
+#include <cstdlib>
 #include <memory>
 #include <set>
 
@@ -67,16 +70,48 @@ absl::Status cannotBeOpened(const std::string& path, const char* wanted, QuietGd
                                      GDALVersionInfo("RELEASE_NAME"), error, wanted));
 }
 
+/// DataLoss for a file of ENVI that is shorter than its header says: GDAL takes what such a file
+/// lacks for zeros that were never written.
+absl::Status checkWhole(const std::string& path, GDALDatasetH raster) {
+    const auto said = [raster](const char* field) -> std::uint64_t {
+        const char* const text = GDALGetMetadataItem(raster, field, "ENVI");
+        return text == nullptr ? 0 : std::strtoull(text, nullptr, 10);
+    };
+    const GDALDriverH driver = GDALGetDatasetDriver(raster);
+    if (driver == nullptr || !EQUAL(GDALGetDriverShortName(driver), "ENVI") ||
+        said("file_compression") != 0)
+        return absl::OkStatus();
+    std::uint64_t expected = 1;
+    for (const int factor :
+         {GDALGetRasterXSize(raster), GDALGetRasterYSize(raster), GDALGetRasterCount(raster),
+          GDALGetDataTypeSizeBytes(GDALGetRasterDataType(GDALGetRasterBand(raster, 1)))})
+        expected *= static_cast<std::uint64_t>(factor);
+    expected += said("header_offset");
+    VSIStatBufL status;
+    if (VSIStatL(gdalPath(path).c_str(), &status) != 0 ||
+        static_cast<std::uint64_t>(status.st_size) >= expected)
+        return absl::OkStatus();
+    return absl::DataLossError(fmt::format("{}: has {} bytes, and {} by its header; {}", path,
+                                           status.st_size, expected, whyUnreadable(path)));
+}
+
+std::string lowerCase(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
 }  // namespace
 
 std::string gdalPath(const std::string& path) {
     if (path.starts_with("/vsi"))
         return path;
     const std::string name = page::gdalName(path);
-    if (path.ends_with(".gz"))
+    const std::string plain = lowerCase(page::withoutQuery(path));
+    if (plain.ends_with(".gz"))
         return "/vsigzip/" + name;
-    if (path.ends_with(".zip"))
-        return "/vsizip/" + name;
+    if (plain.ends_with(".zip"))  // in braces it may go on after that
+        return plain.size() == path.size() ? "/vsizip/" + name : "/vsizip/{" + name + '}';
     return name;
 }
 
@@ -96,6 +131,7 @@ absl::StatusOr<Dataset> openRaster(const std::string& path, const char* wanted, 
                                          "subdatasets instead{} (gdalinfo lists them)",
                                          first ? fmt::format(", such as {}", first) : ""));
     }
+    RETURN_IF_ERROR(checkWhole(path, dataset.get()));
     return dataset;
 }
 

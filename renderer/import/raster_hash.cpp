@@ -39,7 +39,7 @@ absl::StatusOr<std::uint64_t> rasterHash(const std::string& path, GDALDatasetH r
         const absl::StatusOr<std::uint64_t> other = fileHash(file, hashFolder, stop);
         if (other.ok())
             hash = hash * 0x9e3779b97f4a7c15 + *other;
-        else if (absl::IsResourceExhausted(other.status()) || absl::IsCancelled(other.status()))
+        else if (!absl::IsNotFound(other.status()))
             return other.status();
     }
     return hash;

@@ -26,22 +26,25 @@ fabric::Mat4 objectFromLattice(const terrain::GridFrame& frame,
     return m;
 }
 
-/// Bytes that every import holds in memory, whatever lies on scratch.
-std::uint64_t residentBytes(const HeightSource& posts, bool hasImagery) {
-    // The program with GDAL and PROJ, GDAL's cache, strips and pages under way: measured.
-    constexpr std::uint64_t kProgram = std::uint64_t{160} << 20;
-    // Summaries, coarse vertex levels, tile records, and those again while they are written.
+/// What GDAL warps of pictures at once, and texture tiles under way: measured.
+constexpr std::uint64_t kImagery = std::uint64_t{40} << 20;
+
+/// Summaries, coarse vertex levels, tile records, and those again while they are written.
+std::uint64_t tileBytes(const terrain::GridFrame& frame) {
     constexpr std::uint64_t kPostsPerByte = 10;
-    // What GDAL warps at once, and texture tiles under way.
-    constexpr std::uint64_t kImagery = std::uint64_t{40} << 20;
-    return kProgram + posts.readingBytes() + (hasImagery ? kImagery : 0) +
-           static_cast<std::uint64_t>(posts.frame().columns) *
-               static_cast<std::uint64_t>(posts.frame().rows) / kPostsPerByte;
+    return static_cast<std::uint64_t>(frame.columns) * static_cast<std::uint64_t>(frame.rows) /
+           kPostsPerByte;
 }
 
-std::uint64_t residentBytes(const HeightSource& posts, const ImagerySource* imagery) {
-    return residentBytes(posts, imagery != nullptr) +
-           (imagery == nullptr ? 0 : imagery->readingBytes());
+std::uint64_t pictureBytes(const ImagerySource* imagery) {
+    return imagery == nullptr ? 0 : kImagery + imagery->readingBytes();
+}
+
+/// Bytes that every import holds in memory, whatever lies on scratch.
+std::uint64_t residentBytes(const HeightSource& posts, std::uint64_t ofPictures) {
+    // The program with GDAL and PROJ, GDAL's cache, strips and pages under way: measured.
+    constexpr std::uint64_t kProgram = std::uint64_t{160} << 20;
+    return kProgram + posts.readingBytes() + tileBytes(posts.frame()) + ofPictures;
 }
 
 /// What level 0 may be off at least: where heights are rounded, by half a step for that and half of
@@ -80,13 +83,20 @@ std::vector<std::string> notesOnError(const terrain::HeightLattice& lattice,
 
 std::vector<std::string> notesOnMemory(const HeightSource& posts, const ImagerySource* imagery,
                                        std::uint64_t memoryBytes) {
-    const std::uint64_t taken = residentBytes(posts, imagery) + kLeastScratch;
+    const std::uint64_t ofPictures = pictureBytes(imagery);
+    const std::uint64_t taken = residentBytes(posts, ofPictures) + kLeastScratch;
     if (taken <= memoryBytes)
         return {};
-    return {
-        fmt::format("takes about {} MB of memory, not {} MB: what is known of the tiles of "
-                    "{} x {} posts does not go to the scratch file",
-                    taken >> 20, memoryBytes >> 20, posts.frame().columns, posts.frame().rows)};
+    const terrain::GridFrame& frame = posts.frame();
+    const std::string why =
+        ofPictures > tileBytes(frame)
+            ? fmt::format("reading pictures takes {} MB of that", ofPictures >> 20)
+            : fmt::format(
+                  "what is known of the tiles of {} x {} posts does not go to the scratch "
+                  "file",
+                  frame.columns, frame.rows);
+    return {fmt::format("takes about {} MB of memory, not {} MB: {}", taken >> 20,
+                        memoryBytes >> 20, why)};
 }
 
 terrain::EytIndex emptyIndex(const terrain::ElevationModel& model,
@@ -111,13 +121,13 @@ std::uint32_t texturesOf(const ImagerySource* imagery) {
 }
 
 std::uint64_t imageryCacheBytes(const HeightSource& posts, std::uint64_t memoryBytes) {
-    const std::uint64_t resident = residentBytes(posts, true);
+    const std::uint64_t resident = residentBytes(posts, kImagery);
     return memoryBytes > resident ? (memoryBytes - resident) / 3 : 0;
 }
 
 std::uint64_t scratchBytes(const HeightSource& posts, const ImagerySource* imagery,
                            std::uint64_t memoryBytes) {
-    const std::uint64_t resident = residentBytes(posts, imagery);
+    const std::uint64_t resident = residentBytes(posts, pictureBytes(imagery));
     return std::max(kLeastScratch, memoryBytes > resident ? memoryBytes - resident : 0);
 }
 

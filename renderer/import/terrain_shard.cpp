@@ -229,6 +229,10 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(HeightSource& posts,
     const std::vector<std::string> findings = posts.findings();
     report.notes.insert(report.notes.begin(), findings.begin(), findings.end());
     report.notes.insert(report.notes.end(), imagery.notes.begin(), imagery.notes.end());
+    if (imagery.texels) {
+        const std::vector<std::string> found = imagery.texels->findings();
+        report.notes.insert(report.notes.end(), found.begin(), found.end());
+    }
     return report;
 }
 

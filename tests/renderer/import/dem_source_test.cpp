@@ -20,6 +20,7 @@
 #include "renderer/import/terrain_synth.h"
 #include "renderer/import/whole_file.h"
 #include "tests/renderer/import/terrain_fixture.h"
+#include "tests/support/page_server.h"
 
 namespace eyrie::import {
 namespace {
@@ -301,6 +302,25 @@ TEST_F(DemSource, NamesARasterOfAnArchiveOfSeveralFiles) {
     EXPECT_TRUE(test::readDem(inside).ok());
 }
 
+TEST_F(DemSource, LooksIntoArchivesHoweverTheirNamesAreWritten) {
+    const std::string grid = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n";
+    GDALAllRegister();
+    const auto pack = [&](const std::string& name) {
+        VSILFILE* const file = VSIFOpenL(name.c_str(), "wb");
+        VSIFWriteL(grid.data(), 1, grid.size(), file);
+        VSIFCloseL(file);
+    };
+    const std::string zip = folder_.path("dem.zip");
+    pack("/vsizip/" + zip + "/dem.asc");
+    pack("/vsigzip/" + folder_.path("DEM.ASC.GZ"));
+    EXPECT_TRUE(test::readDem(folder_.path("DEM.ASC.GZ")).ok());
+    test::PageServer server(test::contents(zip));
+    const auto elsewhere = test::readDem(server.url("dem.zip?version=2"));
+    EXPECT_TRUE(elsewhere.ok()) << elsewhere.status();
+    std::filesystem::rename(zip, folder_.path("DEM.ZIP"));
+    EXPECT_TRUE(test::readDem(folder_.path("DEM.ZIP")).ok());
+}
+
 TEST_F(DemSource, RefusesWhatIsNoRaster) {
     expectRefused(folder_.path("none.tif"), absl::StatusCode::kNotFound, "no such file");
     expectRefused(written("text.tif", "not a raster at all"), absl::StatusCode::kInvalidArgument,
@@ -355,6 +375,19 @@ TEST_F(DemSource, CallsATruncatedFileUnreadable) {
     ASSERT_TRUE(writeGeoTiff(synthesizeTerrain(200, 1), path).ok());
     std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
     EXPECT_FALSE(test::readDem(path).ok());
+}
+
+/// What it lacks GDAL reads as zeros.
+TEST_F(DemSource, RefusesAFileOfEnviThatIsShorterThanItsHeaderSays) {
+    const std::string path = folder_.path("cut.img");
+    GDALAllRegister();
+    const GDALDatasetH file =
+        GDALCreate(GDALGetDriverByName("ENVI"), path.c_str(), 40, 30, 1, GDT_Int16, nullptr);
+    GDALFillRaster(GDALGetRasterBand(file, 1), 100, 0);
+    GDALClose(file);
+    EXPECT_TRUE(test::readDem(path).ok());
+    std::filesystem::resize_file(path, 2398);
+    expectRefused(path, absl::StatusCode::kDataLoss, "has 2398 bytes, and 2400 by its header");
 }
 
 TEST_F(DemSource, WrittenAnewRemovesWhatAKilledWriterLeft) {

@@ -16,6 +16,7 @@
 #include "renderer/import/shard_part.h"
 #include "renderer/import/terrain_shard.h"
 #include "tests/renderer/import/terrain_fixture.h"
+#include "tests/support/page_server.h"
 
 namespace eyrie::import {
 namespace {
@@ -147,6 +148,15 @@ TEST_F(FileHash, IsCalledOffWithoutANote) {
     EXPECT_EQ(notesKept(), 0U);
     EXPECT_EQ(hashed(), hash(""));
     EXPECT_TRUE(fileHash(path_, notes_, stop.get_token()).ok()) << "known";
+}
+
+TEST_F(FileHash, IsNotOfAPartOfWhatAServerHas) {
+    test::PageServer server(std::string(1 << 20, 'a'));
+    const std::string name = "/vsicurl/" + server.url("dem.xyz");
+    server.refuseOnce(700'000);
+    const absl::Status status = fileHash(name, "").status();
+    EXPECT_TRUE(absl::IsUnavailable(status)) << status;
+    EXPECT_THAT(status.ToString(), testing::HasSubstr("of its 1048576 bytes came"));
 }
 
 /// A strip of 17 MB, most of which one of two shards has.

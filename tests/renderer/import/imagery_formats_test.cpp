@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <stop_token>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,6 +15,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "renderer/import/geotiff_writer.h"
 #include "renderer/import/picture_fingerprint.h"
 #include "tests/renderer/import/imagery_import.h"
 
@@ -82,6 +85,7 @@ TEST_F(ImageryImport, KnowsWhatIsOpaqueInMoreThan8Bits) {
     for (const Kind& kind : {Kind{"16 bits", GDT_UInt16, nullptr, 65535},
                              Kind{"12 bits", GDT_UInt16, "NBITS=12", 4095},
                              Kind{"8 bits of 16", GDT_UInt16, nullptr, 255},
+                             Kind{"12 bits without a tag", GDT_UInt16, nullptr, 4000},
                              Kind{"signed", GDT_Int16, nullptr, 32767}}) {
         const std::string path = folder_.path(std::string(kind.name) + ".tif");
         {
@@ -150,6 +154,18 @@ TEST_F(ImageryImport, FingerprintsOfVirtualPicturesAreOfWhatTheyName) {
     EXPECT_EQ(fingerprint(10), first);
 }
 
+TEST_F(ImageryImport, FingerprintsAreOfWhatLiesBetweenTheEndsOfLargeFiles) {
+    constexpr std::size_t kEnd = 1 << 20;
+    const auto fingerprint = [&](char middle) {
+        std::ofstream(folder_.path("large"), std::ios::binary)
+            << std::string(kEnd, 'a') << std::string(kEnd, middle) << std::string(kEnd, 'a');
+        return pictureFingerprint({folder_.path("large")});
+    };
+    const std::uint64_t first = fingerprint('b');
+    EXPECT_NE(fingerprint('c'), first);
+    EXPECT_EQ(fingerprint('b'), first);
+}
+
 TEST_F(ImageryImport, LeavesHolesWhereABandsOwnMaskHides) {
     const std::string path = write(over(290, 290, 10, [](double, double) {
         return Rgba{10, 200, 30, 255};
@@ -199,6 +215,31 @@ TEST_F(ImageryImport, RefusesWhatIsNoPicture) {
                 HasSubstr("is no raster"));
 }
 
+TEST_F(ImageryImport, RefusesColoursOfSeveralDepthsNamingTheBand) {
+    write(over(290, 290, 10, waves(300)));
+    const auto errorOf = [&](const char* green, const char* blue) {
+        std::ofstream vrt(folder_.path("mixed.vrt"));
+        vrt << "<VRTDataset rasterXSize=\"37\" rasterYSize=\"37\">";
+        int number = 0;
+        for (const char* type : {"Byte", green, blue})
+            vrt << fmt::format(
+                "<VRTRasterBand dataType=\"{0}\" band=\"{1}\"><SimpleSource>"
+                "<SourceFilename relativeToVRT=\"1\">picture.tif</SourceFilename>"
+                "<SourceBand>{1}</SourceBand></SimpleSource></VRTRasterBand>",
+                type, ++number);
+        vrt << "</VRTDataset>";
+        vrt.close();
+        return importError(test::slope(30, 30, 10), {folder_.path("mixed.vrt")});
+    };
+    EXPECT_TRUE(errorOf("Byte", "Byte").ok());
+    const absl::Status deep = errorOf("UInt16", "Byte");
+    EXPECT_EQ(deep.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(deep.ToString(), HasSubstr("its band 1 holds Byte values and its band 2 UInt16"));
+    const absl::Status floats = errorOf("Byte", "Float32");
+    EXPECT_EQ(floats.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(floats.ToString(), HasSubstr("its band 3 holds Float32 values"));
+}
+
 TEST_F(ImageryImport, CutOffPictureIsDataLossAndLeavesNothing) {
     const std::string path = write(over(3000, 3000, 5, waves(300)));
     std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
@@ -206,6 +247,49 @@ TEST_F(ImageryImport, CutOffPictureIsDataLossAndLeavesNothing) {
     EXPECT_FALSE(status.ok());
     EXPECT_THAT(status.ToString(), HasSubstr(path));
     EXPECT_THAT(folder_.files(), testing::Not(testing::Contains(HasSubstr("with.eyt"))));
+}
+
+/// A raster written anew, as gdal_translate does with such arguments.
+void translate(const std::string& from, const std::string& to, const char* arguments) {
+    CPLStringList words(CSLTokenizeString(arguments));
+    const std::unique_ptr<GDALTranslateOptions, decltype(&GDALTranslateOptionsFree)> options(
+        GDALTranslateOptionsNew(words.List(), nullptr), &GDALTranslateOptionsFree);
+    const GDALDatasetUniquePtr file(GDALDataset::Open(from.c_str()));
+    ASSERT_NE(file, nullptr);
+    GDALClose(GDALTranslate(to.c_str(), GDALDataset::ToHandle(file.get()), options.get(), nullptr));
+}
+
+/// Of which GDAL makes grey by itself.
+TEST_F(ImageryImport, CutOffJpegIsDataLoss) {
+    const std::string path = folder_.path("cut.jpg");
+    translate(write(over(3000, 3000, 5, waves(300))), path, "-of JPEG -b 1 -b 2 -b 3");
+    ASSERT_TRUE(importError(test::slope(301, 301, 10), {path}).ok());
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+    const absl::Status status = importError(test::slope(301, 301, 10), {path});
+    EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss);
+    EXPECT_THAT(status.ToString(), HasSubstr("cut.jpg: its pixels cannot be read"));
+}
+
+/// Of JPEGs in a GeoTIFF libjpeg's warnings stop nothing.
+TEST_F(ImageryImport, SaysOfWhichPicturesPixelsMayBeWrong) {
+    const std::string path = folder_.path("damaged.tif");
+    translate(write(over(3000, 3000, 5, waves(300))), path,
+              "-b 1 -b 2 -b 3 -co COMPRESS=JPEG -co TILED=YES");
+    {
+        const std::string bytes = test::contents(path);
+        const std::size_t scan = bytes.rfind("\xff\xda", bytes.size() / 2);
+        ASSERT_NE(scan, std::string::npos);
+        std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+        file.seekp(static_cast<std::streamoff>(scan + 150));
+        file << std::string(100, '\0');
+    }
+    const std::string dem = folder_.path("dem.tif");
+    ASSERT_TRUE(writeGeoTiff(test::slope(301, 301, 10), dem).ok());
+    const auto report = importTerrain({dem}, folder_.path("out.eyt"), {.imagery = {path}}, {});
+    ASSERT_TRUE(report.ok()) << report.status();
+    EXPECT_THAT(report->notes, testing::Contains(testing::AllOf(
+                                   HasSubstr("damaged.tif: some of its pixels may be wrong"),
+                                   HasSubstr("Corrupt JPEG data"))));
 }
 
 /// Of 40 x 40 pixels around the slope of 30 x 30 posts.
@@ -297,14 +381,7 @@ TEST_F(ImageryImport, OfPrintersColoursIn16BitsIsAnErrorWithARemedy) {
     EXPECT_THAT(status.ToString(), HasSubstr("cmyk.tif: its band 1 is Cyan"));
     const std::string remedy = "-ot Byte -scale 0 65535 0 255 -co PHOTOMETRIC=CMYK";
     EXPECT_THAT(status.ToString(), HasSubstr("gdal_translate " + remedy));
-    {
-        CPLStringList words(CSLTokenizeString(remedy.c_str()));
-        GDALTranslateOptions* const options = GDALTranslateOptionsNew(words.List(), nullptr);
-        const GDALDatasetUniquePtr file(GDALDataset::Open(path.c_str()));
-        GDALClose(GDALTranslate(folder_.path("byte.tif").c_str(), GDALDataset::ToHandle(file.get()),
-                                options, nullptr));
-        GDALTranslateOptionsFree(options);
-    }
+    translate(path, folder_.path("byte.tif"), remedy.c_str());
     const auto file = imported(test::slope(30, 30, 10), {folder_.path("byte.tif")});
     ASSERT_NE(file, nullptr);
     expectColours(
@@ -346,6 +423,21 @@ TEST_F(ImageryImport, TurnsPicturesBesideEachOtherTo8BitsByTheBrightestOfAll) {
             },
             4);
     }
+}
+
+TEST_F(ImageryImport, IsCalledOffWhileItLooksForTheBrightest) {
+    const std::string dem = folder_.path("dem.tif");
+    const std::string picture = folder_.path("half.tif");
+    ASSERT_TRUE(writeGeoTiff(test::slope(30, 30, 10), dem).ok());
+    writeHalf(picture, false, 500);
+    std::stop_source stop;
+    const ImportControl control{[&](std::string_view stage, double) {
+                                    if (stage == "looking for the brightest")
+                                        stop.request_stop();
+                                },
+                                stop.get_token()};
+    EXPECT_TRUE(absl::IsCancelled(
+        importTerrain({dem}, folder_.path("out.eyt"), {.imagery = {picture}}, control).status()));
 }
 
 }  // namespace

@@ -121,6 +121,8 @@ TEST_F(ImageryInStrips, ThatAreTooWideForTheMemoryAreSaidToBe) {
     EXPECT_THAT(report->notes,
                 testing::Contains(testing::AllOf(HasSubstr(picture_), HasSubstr("row by row"),
                                                  HasSubstr("TILED=YES"))));
+    EXPECT_THAT(report->notes, testing::Contains(HasSubstr("not 192 MB: reading pictures takes")))
+        << "and not the few tiles of the terrain";
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ eyrie_test(terrain_outline_test LABEL unit LINK eyrie_test_terrain eyrie::truth)
 eyrie_test(eyt_damage_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(terrain_import_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(raster_name_test LABEL unit LINK eyrie::terrain_import)
-eyrie_test(dem_source_test LABEL unit LINK eyrie_test_terrain GDAL::GDAL fmt::fmt)
+eyrie_test(dem_source_test LABEL unit LINK eyrie_test_terrain eyrie::test_support GDAL::GDAL fmt::fmt)
 eyrie_test(tile_bytes_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(dem_mosaic_test LABEL unit
            SOURCES dem_mosaic_fixture.cpp dem_mosaic_test.cpp dem_tiles_test.cpp dem_units_test.cpp length_caveat_test.cpp wide_lands_test.cpp
@@ -23,7 +23,7 @@ eyrie_test(imagery_import_test LABEL unit
            SOURCES imagery_formats_test.cpp imagery_import_test.cpp imagery_places_test.cpp imagery_strips_test.cpp
            LINK eyrie_test_imagery GDAL::GDAL fmt::fmt)
 eyrie_test(terrain_kill_test LABEL unit LINK eyrie_test_imagery)
-eyrie_test(file_hash_test LABEL unit LINK eyrie_test_terrain)
+eyrie_test(file_hash_test LABEL unit LINK eyrie_test_terrain eyrie::test_support)
 eyrie_test(shard_plan_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(whole_file_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(terrain_shard_test LABEL unit LINK eyrie_test_imagery)
