@@ -126,6 +126,7 @@ absl::StatusOr<Facts> dataFacts(const std::string& path, const page::SourceOptio
         default:
             break;
     }
+    RETURN_IF_ERROR(page::checkScheme(path));
     if (!page::isRemote(path) && !std::filesystem::exists(path))
         return absl::NotFoundError(fmt::format("{}: no such file", path));
     return absl::InvalidArgumentError(fmt::format(
