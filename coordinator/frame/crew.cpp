@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "fabric/log.h"
+#include "fabric/shown_name.h"
 
 namespace eyrie::coordinator {
 namespace {
@@ -42,8 +43,9 @@ std::string differenceOf(const fabric::Scene& scene, const std::vector<fabric::D
         difference += fmt::format(
             "{}{} ({}) has {} bytes and sum {:016x} there, {} bytes and sum {:016x} with the "
             "others",
-            difference.empty() ? "" : "; ", scene.objects[i].name, scene.objects[i].path,
-            found[i].bytes, found[i].checksum, expected[i].bytes, expected[i].checksum);
+            difference.empty() ? "" : "; ", scene.objects[i].name,
+            fabric::shownName(scene.objects[i].path), found[i].bytes, found[i].checksum,
+            expected[i].bytes, expected[i].checksum);
     }
     return difference;
 }
