@@ -114,6 +114,7 @@ DataCache::DataCache(fs::path folder, ProgressBar::Style progress, std::stop_tok
 
 absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::ObjectKind kind,
                                                const std::vector<std::string>& imagery) {
+    RETURN_IF_ERROR(page::checkScheme(path));
     switch (dataFileOf(path)) {
         case DataFile::Terrain:
         case DataFile::Mesh:

@@ -18,6 +18,7 @@
 #include "cli/imagery_facts.h"
 #include "cli/json_object.h"
 #include "cli/scene_files.h"
+#include "fabric/shown_name.h"
 #include "fabric/status.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/page/remote_name.h"
@@ -126,6 +127,7 @@ absl::StatusOr<Facts> dataFacts(const std::string& path, const page::SourceOptio
         default:
             break;
     }
+    RETURN_IF_ERROR(page::checkScheme(path));
     if (!page::isRemote(path) && !std::filesystem::exists(path))
         return absl::NotFoundError(fmt::format("{}: no such file", path));
     return absl::InvalidArgumentError(fmt::format(
@@ -163,7 +165,7 @@ JsonObject toJson(const Facts& facts) {
 
 void printFacts(const std::string& name, const Facts& facts) {
     const fabric::Box& b = facts.bounds;
-    fmt::print("{}: {}\n", name, facts.kind);
+    fmt::print("{}: {}\n", fabric::shownName(name), facts.kind);
     fmt::print("  bounds      {:.10g} {:.10g} {:.10g} to {:.10g} {:.10g} {:.10g} m\n", b.min.x,
                b.min.y, b.min.z, b.max.x, b.max.y, b.max.z);
     fmt::print("  {:<11} {}\n", facts.unit, facts.count);
@@ -203,7 +205,7 @@ absl::Status sceneInfo(const std::string& path, const page::SourceOptions& sourc
     std::uint64_t triangles = 0;
     for (const fabric::SceneObject& object : scene.objects) {
         JsonObject one;
-        one.text("name", object.name).text("path", object.path);
+        one.text("name", object.name).text("path", fabric::shownName(object.path));
         const DataFile file = dataFileOf(object.path);
         if (file == DataFile::Terrain || file == DataFile::Mesh) {
             ASSIGN_OR_RETURN(const Facts facts, dataFacts(object.path, sources));
@@ -214,7 +216,7 @@ absl::Status sceneInfo(const std::string& path, const page::SourceOptions& sourc
             if (form == Form::Text)
                 printFacts(object.name, facts);
         } else if (form == Form::Text) {
-            fmt::print("{}: {}, not imported yet\n", object.name, object.path);
+            fmt::print("{}: {}, not imported yet\n", object.name, fabric::shownName(object.path));
         }
         objects.push_back(std::move(one));
     }

@@ -11,17 +11,43 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <spdlog/formatter.h>
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <unistd.h>
 
 #include "cli/json_object.h"
 #include "fabric/log.h"
+#include "fabric/shown_name.h"
 
 namespace eyrie::cli {
 namespace {
 
 LogOptions current;
+
+std::string shownMessage(const spdlog::details::log_msg& entry) {
+    return fabric::shownName({entry.payload.data(), entry.payload.size()});
+}
+
+/// %v of text for people.
+class ShownMessage final : public spdlog::custom_flag_formatter {
+public:
+    void format(const spdlog::details::log_msg& entry, const std::tm&,
+                spdlog::memory_buf_t& line) override {
+        const std::string message = shownMessage(entry);
+        line.append(message.data(), message.data() + message.size());
+    }
+
+    std::unique_ptr<spdlog::custom_flag_formatter> clone() const override {
+        return std::make_unique<ShownMessage>();
+    }
+};
+
+std::unique_ptr<spdlog::formatter> textLines() {
+    auto lines = std::make_unique<spdlog::pattern_formatter>();
+    lines->add_flag<ShownMessage>('v').set_pattern("%H:%M:%S.%e %^%l%$ %v");
+    return lines;
+}
 
 class JsonLines final : public spdlog::formatter {
 public:
@@ -40,7 +66,7 @@ public:
             .text("command", command_)
             .count("process", static_cast<std::uint64_t>(getpid()))
             .count("thread", entry.thread_id)
-            .text("message", {entry.payload.data(), entry.payload.size()});
+            .text("message", shownMessage(entry));
         const std::string text = json.str() + "\n";
         line.append(text.data(), text.data() + text.size());
     }
@@ -69,7 +95,7 @@ void tellLines(std::string_view lines, spdlog::level::level_enum level) {
         if (current.isJson)
             addEntry(line, level);
         else
-            fmt::print(stderr, "{}\n", line);
+            fmt::print(stderr, "{}\n", fabric::shownName(line));
     }
 }
 
@@ -83,7 +109,7 @@ void startLog(const LogOptions& options) {
     if (options.isJson)
         logger->set_formatter(std::make_unique<JsonLines>(options.command));
     else
-        logger->set_pattern("%H:%M:%S.%e %^%l%$ %v");
+        logger->set_formatter(textLines());
     spdlog::set_default_logger(std::move(logger));
     spdlog::set_level(options.level.empty() ? spdlog::level::info
                                             : spdlog::level::from_str(options.level));
@@ -113,7 +139,7 @@ void logFailure(const std::string& message) {
     if (current.isJson)
         spdlog::error("{}", message);
     else
-        fmt::print(stderr, "eyrie: {}\n", message);
+        fmt::print(stderr, "eyrie: {}\n", fabric::shownName(message));
 }
 
 }  // namespace eyrie::cli

@@ -7,7 +7,8 @@
 
 namespace eyrie::cli {
 
-/// How this process logs: to standard error, since standard output is for facts and pictures.
+/// How this process logs: to standard error, since standard output is for facts and pictures. In
+/// all that is said there, data have the names that anybody may see (fabric::shownName).
 struct LogOptions {
     bool isJson = false;
     std::string level;    ///< as spdlog's; empty: info, until quietLog

@@ -96,6 +96,14 @@ absl::Status placeMeshes(fabric::Scene& scene, std::size_t firstLoose,
     return absl::OkStatus();
 }
 
+/// What a scene file in `folder` calls `name`, as it is called everywhere.
+absl::Status place(std::string& name, const fs::path& folder) {
+    RETURN_IF_ERROR(page::checkScheme(name));
+    if (!page::isRemote(name))
+        name = (folder / name).lexically_normal().string();
+    return absl::OkStatus();
+}
+
 }  // namespace
 
 absl::StatusOr<fabric::Scene> readSceneFile(const std::string& path) {
@@ -106,11 +114,9 @@ absl::StatusOr<fabric::Scene> readSceneFile(const std::string& path) {
         return fabric::withContext(scene.status(), path);
     const fs::path folder = fs::absolute(path).parent_path();
     for (fabric::SceneObject& object : scene->objects) {
-        if (!page::isRemote(object.path))
-            object.path = (folder / object.path).lexically_normal().string();
+        RETURN_IF_ERROR(fabric::withContext(place(object.path, folder), path));
         for (std::string& picture : object.imagery)
-            if (!page::isRemote(picture))
-                picture = (folder / picture).lexically_normal().string();
+            RETURN_IF_ERROR(fabric::withContext(place(picture, folder), path));
     }
     return scene;
 }

@@ -7,11 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "fabric/shown_name.h"
+
 namespace eyrie::cli {
 
 std::string titleOf(const std::vector<std::string>& sources) {
-    return sources.size() == 1 ? sources.front()
-                               : fmt::format("{} and {} more", sources.front(), sources.size() - 1);
+    const std::string first = fabric::shownName(sources.front());
+    return sources.size() == 1 ? first : fmt::format("{} and {} more", first, sources.size() - 1);
 }
 
 double megabytesOf(const std::vector<std::string>& sources) {

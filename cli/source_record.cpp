@@ -5,6 +5,7 @@
 
 #include "cli/image_files.h"
 #include "fabric/name_beside.h"
+#include "fabric/shown_name.h"
 #include "renderer/import/raster_name.h"
 
 namespace eyrie::cli {
@@ -14,13 +15,13 @@ std::string sourceRecordName(const std::string& imported) {
 }
 
 absl::Status recordSources(const std::string& imported, const std::vector<std::string>& sources) {
-    std::vector<std::string> absolute;
+    std::vector<std::string> names;
     std::string text;
     for (const std::string& source : sources) {
-        absolute.push_back(import::absoluteName(source));
-        text += absolute.back() + "\n";
+        names.push_back(fabric::shownName(import::absoluteName(source)));
+        text += names.back() + "\n";
     }
-    if (recordedSources(imported) == absolute)
+    if (recordedSources(imported) == names)
         return absl::OkStatus();
     return writeText(text, sourceRecordName(imported));
 }

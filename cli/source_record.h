@@ -8,8 +8,9 @@
 #include <absl/status/status.h>
 
 /// Where the sources of an import lie: a text file beside it, NAME.source, with an absolute path a
-/// line, in the order they were imported in. Not in the import itself, whose bytes depend on what
-/// the sources hold and on nothing else (docs/decisions/0032-measured-errors.md).
+/// line, in the order they were imported in, or an address as anybody may see it
+/// (fabric::shownName), since anybody may read the record. Not in the import itself, whose bytes
+/// depend on what the sources hold and on nothing else (docs/decisions/0032-measured-errors.md).
 namespace eyrie::cli {
 
 /// The name of the record beside an import.

@@ -21,14 +21,16 @@
 namespace eyrie::coordinator {
 namespace {
 
-/// Gives renderers up whose heartbeats stop.
-void watchHeartbeats(Registry& registry, const std::stop_token& stop) {
+/// Gives renderers up whose heartbeats stop, and asks those again that could not open the scene.
+void watchRenderers(Registry& registry, FramePipeline& pipeline, const std::stop_token& stop) {
     std::mutex mutex;
     std::condition_variable_any wake;
     std::unique_lock lock(mutex);
     while (!stop.stop_requested()) {
         wake.wait_for(lock, stop, registry.options().heartbeatInterval / 4, [] { return false; });
-        registry.expire(Registry::Clock::now());
+        const Registry::Clock::time_point now = Registry::Clock::now();
+        registry.expire(now);
+        pipeline.openAgain(now);
     }
 }
 
@@ -49,7 +51,9 @@ public:
                 [this](fabric::Scene scene) { pipeline_.setScene(std::move(scene)); },
                 std::move(dataFolder), options.programs, options.quotas, telemetry_, state_.get()}),
           door_(std::move(door)),
-          watcher_([this](const std::stop_token& stop) { watchHeartbeats(*registry_, stop); }) {
+          watcher_([this](const std::stop_token& stop) {
+              watchRenderers(*registry_, pipeline_, stop);
+          }) {
         if (!options.scene.objects.empty())
             setScene(options.scene);
         door_->use(api_.handlers());

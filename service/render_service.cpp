@@ -37,9 +37,13 @@ absl::StatusOr<fabric::SceneInfo> opened(ChannelDrawer& drawer, const fabric::Sc
 
 absl::Status openScene(ChannelDrawer& drawer, const fabric::Scene& scene, PickThread& picks,
                        v1::OpenSceneResponse& response) {
-    ASSIGN_OR_RETURN(const fabric::SceneInfo info, opened(drawer, scene));
+    const absl::StatusOr<fabric::SceneInfo> info = opened(drawer, scene);
+    // That its data are unavailable is not to say that the renderer is.
+    if (absl::IsUnavailable(info.status()))
+        return absl::AbortedError(info.status().message());
+    RETURN_IF_ERROR(info.status());
     picks.use(drawer.pickFunction());
-    response = wire::toMessage(info);
+    response = wire::toMessage(*info);
     return absl::OkStatus();
 }
 

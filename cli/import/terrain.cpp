@@ -19,6 +19,7 @@
 #include "cli/source_record.h"
 #include "cli/stop_signal.h"
 #include "cli/values.h"
+#include "fabric/shown_name.h"
 #include "fabric/status.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/import/terrain_shard.h"
@@ -67,6 +68,12 @@ absl::StatusOr<import::TerrainImportOptions> importOptions(const TerrainOptions&
     return result;
 }
 
+/// As anybody may see them.
+std::vector<std::string> shown(std::vector<std::string> notes) {
+    for (std::string& note : notes) note = fabric::shownName(note);
+    return notes;
+}
+
 void printNotes(const TerrainOptions& options, const std::vector<std::string>& notes) {
     for (const std::string& note : notes)
         tell(fmt::format("{}: {}", titleOf(options.sources), note));
@@ -100,8 +107,9 @@ absl::Status importTerrain(const TerrainOptions& options) {
                                        .number("finest", made->finestErrorMetres));
         if (made->imagery)
             json.object("imagery", imageryJson(*made->imagery));
-        fmt::print("{}\n",
-                   json.texts("notes", made->notes).number("seconds", watch.seconds()).str());
+        fmt::print(
+            "{}\n",
+            json.texts("notes", shown(made->notes)).number("seconds", watch.seconds()).str());
         return absl::OkStatus();
     }
     if (options.quiet)
@@ -137,7 +145,7 @@ absl::Status importShard(const TerrainOptions& options) {
                                .count("shards", shard.count)
                                .count("samples", made->posts)
                                .count("bytes", made->sizeBytes)
-                               .texts("notes", made->notes)
+                               .texts("notes", shown(made->notes))
                                .number("seconds", watch.seconds())
                                .str());
         return absl::OkStatus();

@@ -36,6 +36,7 @@ public:
 
     virtual ~ChannelRenderer() = default;
 
+    /// Aborted: its data cannot be had just now, and it may be asked again.
     virtual absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene,
                                                         Clock::time_point deadline) = 0;
     virtual absl::Status setFrameData(const fabric::FrameData& frameData,

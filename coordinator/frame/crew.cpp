@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "fabric/log.h"
+#include "fabric/shown_name.h"
 
 namespace eyrie::coordinator {
 namespace {
@@ -42,8 +43,9 @@ std::string differenceOf(const fabric::Scene& scene, const std::vector<fabric::D
         difference += fmt::format(
             "{}{} ({}) has {} bytes and sum {:016x} there, {} bytes and sum {:016x} with the "
             "others",
-            difference.empty() ? "" : "; ", scene.objects[i].name, scene.objects[i].path,
-            found[i].bytes, found[i].checksum, expected[i].bytes, expected[i].checksum);
+            difference.empty() ? "" : "; ", scene.objects[i].name,
+            fabric::shownName(scene.objects[i].path), found[i].bytes, found[i].checksum,
+            expected[i].bytes, expected[i].checksum);
     }
     return difference;
 }
@@ -238,12 +240,23 @@ void Crew::seatNew(const std::vector<Registry::Entry>& entries) {
     }
 }
 
+void Crew::openAgain(Member::Clock::time_point now) {
+    const std::lock_guard lock(mutex_);
+    for (Seat& seat : seats_)
+        if (!closing_ && !seat.drains && seat.retry.takeTurn(now))
+            askToOpen(seat);
+}
+
 void Crew::openIn(Seat& seat) {
     seat.openError = absl::OkStatus();
+    seat.retry = {};
     seat.hasOtherData = false;
     seat.opened = 0;
-    if (scene_->objects.empty() || seat.drains)
-        return;
+    if (!scene_->objects.empty() && !seat.drains)
+        askToOpen(seat);
+}
+
+void Crew::askToOpen(Seat& seat) {
     seat.member->open(
         scene_, revision_, options_.openTimeout,
         [this, id = seat.member->id(), revision = revision_](
@@ -253,6 +266,7 @@ void Crew::openIn(Seat& seat) {
 void Crew::noteOpened(const std::string& id, std::uint64_t revision,
                       const absl::StatusOr<fabric::SceneInfo>& info) {
     absl::Status status = info.status();
+    bool isNews = true;  // one that is told again and again is told to the log once
     {
         const std::lock_guard lock(mutex_);
         if (closing_ || revision != revision_)
@@ -263,11 +277,11 @@ void Crew::noteOpened(const std::string& id, std::uint64_t revision,
             return;
         if (info.ok())
             status = seatOpened(*seat, *info);
-        if (!status.ok()) {
-            seat->openError = status;
-            seat->since = Member::Clock::now();
-        }
+        if (!status.ok())
+            isNews = noteOpenError(*seat, status);
     }
+    if (!isNews)
+        return;
     if (status.ok()) {
         spdlog::info("{} has the scene open", id);
     } else {
@@ -278,6 +292,18 @@ void Crew::noteOpened(const std::string& id, std::uint64_t revision,
     changed_();
 }
 
+/// Whether it is another than before.
+bool Crew::noteOpenError(Seat& seat, const absl::Status& error) {
+    const Member::Clock::time_point now = Member::Clock::now();
+    if (absl::IsAborted(error))
+        seat.retry.noteFailure(now);
+    if (seat.openError == error)
+        return false;
+    seat.openError = error;
+    seat.since = now;
+    return true;
+}
+
 /// Where nobody is left that has the data which earlier pictures show, these are the data.
 absl::Status Crew::seatOpened(Seat& seat, const fabric::SceneInfo& info) {
     const std::string difference =
@@ -286,6 +312,7 @@ absl::Status Crew::seatOpened(Seat& seat, const fabric::SceneInfo& info) {
         if (!std::exchange(hasInfo_, true))
             info_ = info;
         seat.opened = revision_;
+        seat.openError = absl::OkStatus();
     } else if (anyOpened()) {
         seat.hasOtherData = true;
         return absl::FailedPreconditionError(

@@ -11,6 +11,7 @@
 #include "coordinator/farm/registry.h"
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/frame/member.h"
+#include "coordinator/frame/open_retry.h"
 #include "fabric/scene.h"
 
 namespace eyrie::coordinator {
@@ -48,6 +49,10 @@ public:
     /// Renderers take part again once they have opened it.
     void setScene(fabric::Scene scene);
 
+    /// Has those open it whose data could not be had, and whose time has come (OpenRetry). To be
+    /// called now and then.
+    void openAgain(Member::Clock::time_point now);
+
     /// Those that have the scene of `revision` open and may have new tasks, in the order of
     /// registration; none when another scene is set.
     std::vector<std::shared_ptr<Member>> ready(std::uint64_t revision) const;
@@ -72,8 +77,9 @@ private:
     struct Seat {
         std::shared_ptr<Member> member;
         std::uint64_t opened = 0;              ///< revision that it has open, with everybody's data
-        absl::Status openError;                ///< why it has not; OK while it may yet
+        absl::Status openError;                ///< why it has not; OK while nothing is known of it
         Member::Clock::time_point since = {};  ///< of openError
+        OpenRetry retry;
         bool hasOtherData = false;
         bool drains = false;
     };
@@ -85,9 +91,11 @@ private:
     void seatNew(const std::vector<Registry::Entry>& entries);
     void drain(Seat& seat);
     void openIn(Seat& seat);
+    void askToOpen(Seat& seat);
     void openInAll();
     void noteOpened(const std::string& id, std::uint64_t revision,
                     const absl::StatusOr<fabric::SceneInfo>& info);
+    static bool noteOpenError(Seat& seat, const absl::Status& error);
     absl::Status seatOpened(Seat& seat, const fabric::SceneInfo& info);
     void describe(const std::string& id, RendererStatus& status) const;
 

@@ -53,6 +53,9 @@ public:
     /// Has the renderers open `scene` in place of the one before.
     void setScene(fabric::Scene scene) { crew_.setScene(std::move(scene)); }
 
+    /// Crew::openAgain.
+    void openAgain(Registry::Clock::time_point now) { crew_.openAgain(now); }
+
     absl::StatusOr<RenderedFrame> renderFrame(const FrameRequest& request) override;
     absl::StatusOr<RenderedFrame> renderLatest(const ChooseFrame& choose) override;
     int framesAtOnce() const override { return planner_.framesUnderWay(); }

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <grpcpp/support/status.h>
 
+#include "fabric/shown_name.h"
+
 namespace eyrie::wire {
 namespace {
 
@@ -16,9 +18,9 @@ constexpr std::size_t kMaxMessageBytes = 4096;
 grpc::Status toGrpc(const absl::Status& status) {
     if (status.ok())
         return grpc::Status::OK;
-    std::string_view message(status.message().data(), status.message().size());
-    return {static_cast<grpc::StatusCode>(status.code()),
-            std::string(message.substr(0, kMaxMessageBytes))};
+    const std::string message =
+        fabric::shownName({status.message().data(), status.message().size()});
+    return {static_cast<grpc::StatusCode>(status.code()), message.substr(0, kMaxMessageBytes)};
 }
 
 absl::Status fromGrpc(const grpc::Status& status, const std::string& peer) {

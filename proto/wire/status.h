@@ -12,6 +12,7 @@ class Status;
 namespace eyrie::wire {
 
 /// The same code and message on the other side: absl::StatusCode has gRPC's numbers.
+/// Data have the names in it that anybody may see (fabric::shownName), since others read it there.
 /// A message longer than 4 KiB is cut, for it travels in an HTTP header.
 grpc::Status toGrpc(const absl::Status& status);
 

@@ -116,6 +116,7 @@ std::string gdalPath(const std::string& path) {
 }
 
 absl::StatusOr<Dataset> openRaster(const std::string& path, const char* wanted, QuietGdal& gdal) {
+    RETURN_IF_ERROR(page::checkScheme(path));
     allowManyOpenFiles();
     Dataset dataset = opened(gdalPath(path));
     // By its plain address GDAL loads all of a file into memory, which serves where a server sends

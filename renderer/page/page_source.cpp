@@ -94,6 +94,7 @@ PageSource::PageSource(std::string name, std::unique_ptr<ByteSource> bytes,
 absl::StatusOr<std::unique_ptr<PageSource>> PageSource::open(const std::string& path,
                                                              std::size_t headBytes,
                                                              const SourceOptions& options) {
+    RETURN_IF_ERROR(checkScheme(path));
     if (isRemote(path))
         return openRemote(path, headBytes, options);
     ASSIGN_OR_RETURN(std::unique_ptr<ByteSource> file, openLocalFile(path));

@@ -13,20 +13,44 @@ namespace {
 constexpr std::string_view kCurl = "/vsicurl/";
 constexpr std::string_view kAny = "any";
 
-bool isHttp(std::string_view path) {
-    return path.starts_with("http://") || path.starts_with("https://");
+std::string lowerCase(std::string_view text) {
+    std::string lower(text);
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return lower;
 }
 
-/// One spelling of an address: `/vsicurl/https://…` is `https://…`.
-std::string_view plain(std::string_view url) {
-    return url.starts_with(kCurl) ? url.substr(kCurl.size()) : url;
+/// Of `s3://…` "s3", whatever its case; "" of what has none.
+std::string schemeOf(std::string_view path) {
+    const std::size_t end = path.find("://");
+    if (end == std::string_view::npos)
+        return "";
+    const std::string scheme = lowerCase(path.substr(0, end));
+    const auto isOfOne = [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '+' || c == '.' || c == '-';
+    };
+    return std::ranges::all_of(scheme, isOfOne) ? scheme : "";
+}
+
+bool isHttp(std::string_view path) {
+    const std::string scheme = schemeOf(path);
+    return scheme == "http" || scheme == "https";
+}
+
+/// With its scheme as GDAL knows it.
+std::string inLowerCase(std::string_view url) {
+    const std::string scheme = schemeOf(url);
+    return scheme + std::string(url.substr(scheme.size()));
+}
+
+/// One spelling of an address: `/vsicurl/HTTPS://…` is `https://…`.
+std::string plain(std::string_view url) {
+    return inLowerCase(url.starts_with(kCurl) ? url.substr(kCurl.size()) : url);
 }
 
 /// Whether a part of it leads upwards, whichever way it is spelt: a prefix would say nothing then.
 bool climbs(std::string_view url) {
-    std::string lower(url);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string lower = lowerCase(url);
     return lower.find("..") != std::string::npos || lower.find("%2e") != std::string::npos ||
            lower.find('\\') != std::string::npos;
 }
@@ -50,8 +74,23 @@ bool isRemote(std::string_view path) {
                        [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
 }
 
+absl::Status checkScheme(const std::string& path) {
+    const std::string scheme = schemeOf(path);
+    if (scheme.empty() || isHttp(path))
+        return absl::OkStatus();
+    const std::string remedy =
+        scheme == "s3" || scheme == "gs"
+            ? fmt::format("write /vsi{}/{} (docs/operations.md)", scheme,
+                          path.substr(scheme.size() + 3))
+            : "download the file, or name it as GDAL does (docs/operations.md)";
+    return absl::InvalidArgumentError(fmt::format(
+        "{}: what begins with http://, https:// or /vsi is read from elsewhere, and {}:// is not; "
+        "{}",
+        path, scheme, remedy));
+}
+
 std::string gdalName(const std::string& url) {
-    return isHttp(url) ? std::string(kCurl) + url : url;
+    return isHttp(url) ? std::string(kCurl) + inLowerCase(url) : url;
 }
 
 std::string withoutQuery(const std::string& path) {

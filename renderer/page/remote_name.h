@@ -8,11 +8,15 @@
 #include <absl/status/status.h>
 
 /// Names of data that lie elsewhere: `https://host/x.eyt`, `http://…`, and GDAL's virtual file
-/// systems (`/vsicurl/https://…`, `/vsis3/bucket/x.eyt`, `/vsigs/…`, `/vsiaz/…`). All else is a
-/// path of this machine.
+/// systems (`/vsicurl/https://…`, `/vsis3/bucket/x.eyt`, `/vsigs/…`, `/vsiaz/…`). The case of
+/// `http` does not matter. All else is a path of this machine.
 namespace eyrie::page {
 
 bool isRemote(std::string_view path);
+
+/// InvalidArgument, with the remedy, for addresses of another kind, such as `s3://bucket/x.eyt`:
+/// nobody means a file of this machine by them.
+absl::Status checkScheme(const std::string& path);
 
 /// As GDAL's virtual file systems call it: `https://…` is `/vsicurl/https://…`.
 std::string gdalName(const std::string& url);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -23,6 +24,7 @@
 #include "cli/picture_bands.h"
 #include "cli/picture_source.h"
 #include "cli/progress_bar.h"
+#include "cli/several_sources.h"
 #include "fabric/frustum.h"
 #include "fabric/log.h"
 #include "fabric/status.h"
@@ -375,6 +377,25 @@ TEST(Tell, WritesEntriesBelowTheLevelOfRenderersButNotBelowWhatIsAskedFor) {
                   tell("one");
               }),
               "");
+}
+
+TEST(Tell, NamesDataAsAnybodyMaySeeThem) {
+    const std::string line = "http://joe:sekret@h/a.eyt?sig=sekret: it is gone";
+    const auto say = [&] {
+        tell(line);
+        tellErrors(line);
+        logFailure(line);
+        spdlog::warn("{}", line);
+    };
+    testing::internal::CaptureStderr();
+    startLog();
+    say();
+    for (const std::string& told : {testing::internal::GetCapturedStderr(), toldAsJson(say)}) {
+        EXPECT_THAT(told, testing::Not(testing::HasSubstr("sekret")));
+        EXPECT_EQ(std::ranges::count(told, '\n'), 4) << told;
+        EXPECT_THAT(told, testing::HasSubstr("http://…@h/a.eyt?…: it is gone"));
+    }
+    EXPECT_EQ(titleOf({line.substr(0, line.find(": it"))}), "http://…@h/a.eyt?…");
 }
 
 /// Before they find that there is nothing to draw.

@@ -214,6 +214,17 @@ TEST_F(SceneFiles, WhatLiesAtAnAddressIsNotLookedForInTheirFolder) {
         (std::vector<std::string>{"https://a.example/ground.tif", folder_.path("ground.tif")}));
 }
 
+TEST_F(SceneFiles, AddressesThatAreNotReadAreNoFilesThatAreMissing) {
+    const std::string scene =
+        folder_.write("a.json", R"({"objects":[{"terrain":"S3://bucket/dem.eyt"}]})");
+    for (const absl::Status& refused :
+         {readSceneFile(scene).status(), assemble({"s3://bucket/dem.eyt"}).status(),
+          assemble({"s3://bucket/dem.tif"}).status()}) {
+        EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument);
+        EXPECT_THAT(refused.ToString(), testing::HasSubstr("write /vsis3/bucket/dem."));
+    }
+}
+
 /// A picture of one colour without a place, which is stretched over the terrain.
 void writePixels(const std::string& path, char level) {
     std::ofstream(path, std::ios::binary) << "P6 2 2 255\n" << std::string(12, level);

@@ -27,6 +27,7 @@ public:
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene,
                                                 Clock::time_point) override {
         const std::lock_guard lock(mutex_);
+        ++asked;
         if (!openStatus_.ok())
             return openStatus_;
         opened.push_back(scene.objects.at(0).name);
@@ -92,6 +93,7 @@ public:
     std::vector<fabric::DataFile> files;             ///< that it finds
     std::atomic<std::chrono::milliseconds> takes{};  ///< really, for a channel
     std::atomic<std::chrono::nanoseconds> saysItWaited{};
+    std::atomic<int> asked{0};                     ///< to open a scene
     std::vector<std::string> opened;               ///< names of the scenes' first objects
     std::vector<std::uint64_t> versions;           ///< of the frame data received
     std::vector<std::uint64_t> frames;             ///< numbers of those it began to draw

@@ -30,6 +30,42 @@ TEST_P(FrameScenes, StatusSaysWhatIsMissing) {
     EXPECT_EQ(pipeline_.status().scene.objects[0].name, "first");
 }
 
+TEST_P(FrameScenes, ARendererWhoseDataCannotBeHadStaysAndIsAskedAgain) {
+    constexpr auto kAlways = Registry::Clock::time_point::max();
+    const auto says = [&](const char* text) {
+        return eventually(
+            [&] { return pipeline_.status().problem.find(text) != std::string::npos; });
+    };
+    pipeline_.setScene(sceneNamed("first"));
+    auto renderer = std::make_shared<FakeRenderer>(layers_);
+    renderer->failToOpen(absl::AbortedError("http://host/a.eym: no answer"));
+    add(renderer);
+    ASSERT_TRUE(says("the scene cannot be opened: http://host/a.eym: no answer"));
+    for (const int asked : {2, 3}) {
+        EXPECT_TRUE(eventually([&] {
+            pipeline_.openAgain(kAlways);
+            EXPECT_THAT(pipeline_.status().problem, testing::HasSubstr("no answer"));
+            return renderer->asked >= asked;
+        }));
+        EXPECT_EQ(statusOf(0).condition, RendererCondition::Refused);
+    }
+    renderer->failToOpen(absl::AbortedError("http://host/a.eym: HTTP 503"));
+    EXPECT_TRUE(eventually([&] {
+        pipeline_.openAgain(kAlways);
+        return pipeline_.status().problem.find("HTTP 503") != std::string::npos;
+    }));
+    renderer->failToOpen(absl::OkStatus());
+    EXPECT_TRUE(eventually([&] {
+        pipeline_.openAgain(kAlways);
+        return pipeline_.status().problem.empty();
+    }));
+    const int asked = renderer->asked;
+    pipeline_.openAgain(kAlways);
+    awaitReady({renderer});
+    expectWholePicture();
+    EXPECT_EQ(renderer->asked, asked) << "it has the scene open";
+}
+
 TEST_P(FrameScenes, ListenersHearThatThePictureIsThere) {
     std::atomic<bool> ready{false};
     const int handle = pipeline_.subscribe([&] {

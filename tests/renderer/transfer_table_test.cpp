@@ -82,6 +82,21 @@ RC_GTEST_PROP(TransferTable, HoldsTheFunctionAtEveryTexel, ()) {
     }
 }
 
+RC_GTEST_PROP(TransferTable, LosesNoPrimitiveHoweverNarrow, ()) {
+    const HeightUnit unit = *rc::gen::element(HeightUnit::Relative, HeightUnit::Metres);
+    fabric::TransferFunction function = anyFunction(
+        unit,
+        {PrimitiveShape::Blend, PrimitiveShape::Box, PrimitiveShape::Tent, PrimitiveShape::Smooth});
+    function.primitives.resize(1);
+    fabric::TransferPrimitive& mark = function.primitives[0];
+    mark.width = 1e-4 * (unit == HeightUnit::Relative ? 1 : kRelief);
+    const auto table = transferTable(function, kLowest, kRelief);
+    const double at =
+        unit == HeightUnit::Relative ? mark.centre : (mark.centre - kLowest) / kRelief;
+    const double most = mark.shape == PrimitiveShape::Box ? 1 : 0.5;  // midway between two texels
+    RC_ASSERT(lookedUp(table, at).a >= most * mark.opacity - 0.5 / 255 - 1e-6);
+}
+
 TEST(TransferTable, DoesNotDarkenWhatFadesOut) {
     const fabric::TransferFunction white{HeightUnit::Relative,
                                          {{PrimitiveShape::Tent, 0.5, 0.1, {1, 1, 1}, 1}}};

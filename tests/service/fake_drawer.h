@@ -56,7 +56,7 @@ struct FakeDrawerControl {
 };
 
 /// Draws a gradient of colour and depth, with tau in the statistics; opens every scene but
-/// "absent" and "endless".
+/// "absent", "silent" and "endless".
 class FakeDrawer final : public ChannelDrawer {
 public:
     explicit FakeDrawer(std::shared_ptr<FakeDrawerControl> control)
@@ -72,6 +72,8 @@ public:
         checkThread();
         if (!scene.objects.empty() && scene.objects[0].path == "absent")
             return absl::NotFoundError("absent: no such file");
+        if (!scene.objects.empty() && scene.objects[0].path == "silent")
+            return absl::UnavailableError("silent: no answer");
         if (!scene.objects.empty() && scene.objects[0].path == "endless")
             throw std::bad_alloc();
         ++control_->opened;

@@ -91,6 +91,14 @@ TEST_F(RenderServerTest, SceneErrorsKeepTheirCodeAndMessage) {
     EXPECT_THAT(std::string(info.status().message()), testing::HasSubstr("absent: no such file"));
 }
 
+TEST_F(RenderServerTest, DataThatAreUnavailableAreNotTakenForARendererThatIs) {
+    fabric::Scene scene;
+    scene.objects.push_back({"ghost", fabric::ObjectKind::Mesh, "silent", fabric::Mat4(1.0), {}});
+    const auto info = renderer_->openScene(scene, soon());
+    EXPECT_EQ(info.status().code(), absl::StatusCode::kAborted);
+    EXPECT_THAT(std::string(info.status().message()), testing::HasSubstr("silent: no answer"));
+}
+
 TEST_F(RenderServerTest, ASceneThatTakesAllMemoryIsRefusedAndTheNextOneOpens) {
     fabric::Scene scene;
     scene.objects.push_back({"ghost", fabric::ObjectKind::Mesh, "endless", fabric::Mat4(1.0), {}});

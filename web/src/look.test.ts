@@ -57,6 +57,17 @@ describe("a transfer function", () => {
     expect(pixels[4 * 90 + 1]).toBeGreaterThan(100);
   });
 
+  it("shows marks in the strip however narrow they are", () => {
+    for (const centre of [0, 0.2501, 0.255, 0.9999]) {
+      const mark: Primitive = { ...red, shape: "box", centre, width: 1e-4, opacity: 1 };
+      const pixels = stripPixels([mark], 101, [0, 1]);
+      const isRed = (x: number) => pixels[4 * x] === 255 && pixels[4 * x + 1] === 0;
+      const drawn = [...Array(101).keys()].filter(isRed);
+      expect(drawn.length).toBeGreaterThan(0);
+      expect(drawn.length).toBeLessThanOrEqual(3);
+    }
+  });
+
   it("in metres shows in the strip from the lowest to the highest ground", () => {
     const state = new State();
     const session = create(SessionStateSchema, {

@@ -17,6 +17,11 @@ TEST(WireStatus, CodeAndMessageCrossTheWire) {
     EXPECT_TRUE(fromGrpc(toGrpc(absl::OkStatus()), "renderer").ok());
 }
 
+TEST(WireStatus, DataHaveTheNamesThatAnybodyMaySee) {
+    const absl::Status status = absl::NotFoundError("http://joe:sekret@h/a.eyt?sig=S: it is gone");
+    EXPECT_EQ(toGrpc(status).error_message(), "http://…@h/a.eyt?…: it is gone");
+}
+
 TEST(WireStatus, ACodeOutsideTheListIsUnknown) {
     const grpc::Status odd(grpc::StatusCode::DO_NOT_USE, "odd");
     EXPECT_EQ(fromGrpc(odd, "renderer").code(), absl::StatusCode::kUnknown);

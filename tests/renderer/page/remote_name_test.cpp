@@ -8,9 +8,9 @@ namespace {
 
 TEST(RemoteName, IsAnAddressOrAVirtualFileSystemAndNothingElse) {
     for (const char* remote :
-         {"http://h/a.eyt", "https://h/a.eyt", "/vsicurl/https://h/a.eyt", "/vsis3/bucket/a.eyt",
-          "/vsigs/bucket/a.eyt", "/vsizip/vsicurl/https://h/a.zip/a.eyt",
-          "/vsicurl?url=https%3A%2F%2Fh%2Fa.eyt"})
+         {"http://h/a.eyt", "https://h/a.eyt", "HTTP://h/a.eyt", "Https://h/a.eyt",
+          "/vsicurl/https://h/a.eyt", "/vsis3/bucket/a.eyt", "/vsigs/bucket/a.eyt",
+          "/vsizip/vsicurl/https://h/a.zip/a.eyt", "/vsicurl?url=https%3A%2F%2Fh%2Fa.eyt"})
         EXPECT_TRUE(isRemote(remote)) << remote;
     for (const char* local : {"a.eyt", "/data/a.eyt", "https:/h/a.eyt", "/vsi", "/vsi/a.eyt",
                               "/vsibility-study.eyt", "./http://h/a.eyt", "", "ftp"})
@@ -19,6 +19,7 @@ TEST(RemoteName, IsAnAddressOrAVirtualFileSystemAndNothingElse) {
 
 TEST(RemoteName, OfAnAddressIsThatOfGdalsHttpFileSystem) {
     EXPECT_EQ(gdalName("https://h/a.eyt"), "/vsicurl/https://h/a.eyt");
+    EXPECT_EQ(gdalName("HttpS://H/a.eyt"), "/vsicurl/https://H/a.eyt");
     EXPECT_EQ(gdalName("/vsis3/b/a.eyt"), "/vsis3/b/a.eyt");
 }
 
@@ -26,6 +27,18 @@ TEST(RemoteName, EndsBeforeTheQuery) {
     EXPECT_EQ(withoutQuery("https://h/a.eyt?signature=x.y#z"), "https://h/a.eyt");
     EXPECT_EQ(withoutQuery("/vsicurl/https://h/a.eyt?s=1"), "/vsicurl/https://h/a.eyt");
     EXPECT_EQ(withoutQuery("what?.eyt"), "what?.eyt");
+}
+
+TEST(RemoteName, OfAnotherKindIsRefusedWithWhatToWrite) {
+    const auto saidOf = [](const char* name) { return checkScheme(name).ToString(); };
+    EXPECT_NE(saidOf("s3://bucket/x.eyt").find("write /vsis3/bucket/x.eyt (docs/"),
+              std::string::npos);
+    EXPECT_NE(saidOf("GS://b/x").find("write /vsigs/b/x (docs/"), std::string::npos);
+    EXPECT_NE(saidOf("ftp://h/x.eyt").find("ftp:// is not; download"), std::string::npos);
+    EXPECT_TRUE(absl::IsInvalidArgument(checkScheme("s3://bucket/x.eyt")));
+    for (const char* name : {"http://h/x", "HTTPS://h/x", "/vsis3/b/x", "a.eyt", "./s3://b/x",
+                             "://x", "HDF5:\"a.h5\"://heights", "/vsicurl/ftp://h/x", "C:/x"})
+        EXPECT_TRUE(checkScheme(name).ok()) << name;
 }
 
 TEST(AllowedUrls, AreNoneUnlessSaid) {
@@ -39,13 +52,14 @@ TEST(AllowedUrls, AreNoneUnlessSaid) {
 
 TEST(AllowedUrls, AreThoseBelowAPrefix) {
     const AllowedUrls allowed({"https://h/dem", "/vsis3/bucket/"});
-    for (const char* good : {"https://h/dem/a.eyt", "https://h/dem", "/vsicurl/https://h/dem/a.eyt",
-                             "/vsis3/bucket/x/a.eyt"})
+    for (const char* good :
+         {"https://h/dem/a.eyt", "https://h/dem", "/vsicurl/https://h/dem/a.eyt",
+          "HTTPS://h/dem/a.eyt", "/vsicurl/HTTPS://h/dem/a.eyt", "/vsis3/bucket/x/a.eyt"})
         EXPECT_TRUE(allowed.check(good).ok()) << good;
     for (const char* bad :
-         {"https://h/demo.eyt", "https://h/a.eyt", "http://h/dem/a.eyt", "https://h.evil/dem/a.eyt",
-          "https://h/dem/../a.eyt", "https://h/dem/%2E%2e/a.eyt", "/vsis3/bucket2/a.eyt",
-          "/vsicurl?url=https://h/dem/a.eyt"})
+         {"https://h/demo.eyt", "https://h/a.eyt", "http://h/dem/a.eyt", "HTTP://h/dem/a.eyt",
+          "https://h.evil/dem/a.eyt", "https://h/dem/../a.eyt", "https://h/dem/%2E%2e/a.eyt",
+          "/vsis3/bucket2/a.eyt", "/vsicurl?url=https://h/dem/a.eyt"})
         EXPECT_FALSE(allowed.check(bad).ok()) << bad;
     EXPECT_FALSE(AllowedUrls({"https://h"}).check("https://h.evil/a.eyt").ok());
     EXPECT_FALSE(AllowedUrls({"https://h"}).check("https://h@evil/a.eyt").ok());

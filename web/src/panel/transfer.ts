@@ -67,15 +67,20 @@ const stripWidth = 256;
 /** What shows through where nothing is opaque: the server's bare ground, as displayed. */
 const bare = [0.548, 0.539, 0.52] as const;
 
-/** The pixels of the strip, `lowest` to `highest`, as r, g, b, a one by one. */
+/**
+ * The pixels of the strip, `lowest` to `highest`, as r, g, b, a one by one. No primitive is lost
+ * between two.
+ */
 export function stripPixels(
   primitives: readonly Primitive[],
   width: number,
   [lowest, highest]: readonly [number, number],
 ): Uint8ClampedArray {
   const pixels = new Uint8ClampedArray(4 * width);
+  const step = (highest - lowest) / (width - 1);
+  const shown = primitives.map((one) => ({ ...one, width: Math.max(one.width, step) }));
   for (let x = 0; x < width; ++x) {
-    const [r, g, b, a] = evaluate(primitives, lowest + ((highest - lowest) * x) / (width - 1));
+    const [r, g, b, a] = evaluate(shown, lowest + step * x);
     [r, g, b].forEach((channel, i) => {
       const mixed = (bare[i] ?? 0) ** 2 * (1 - a) + channel ** 2 * a;
       pixels[4 * x + i] = 255 * Math.sqrt(mixed);
