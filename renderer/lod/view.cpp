@@ -72,28 +72,66 @@ double farthest(std::span<const Vec3> viewPoints) {
     return std::sqrt(squared);
 }
 
+double widestSecantSquared(const Frustum& f) {
+    return 1 + std::max(f.left * f.left, f.right * f.right) +
+           std::max(f.bottom * f.bottom, f.top * f.top);
+}
+
 Frustum widened(const Frustum& f, const Vec2& tangent) {
     return {f.left - tangent.x, f.right + tangent.x, f.bottom - tangent.y, f.top + tangent.y};
 }
 
-/// In pixels, how far what is seen of a surface is from where corners at `corners` have it, that
-/// are drawn up to `off` beside them: as screenSpaceErrorPixels(), but nothing that is drawn lies
-/// beyond.
+/// From the eye to a box in the view at least: to the planes of its faces.
+double distanceAtLeast(const Corners& corners) {
+    double least = 0;
+    for (const std::size_t axis : {1, 2, 4}) {
+        const std::size_t next = axis == 4 ? 1 : 2 * axis;
+        const Vec3 normal =
+            glm::cross(corners[next] - corners[0], corners[7 - axis - next] - corners[0]);
+        const double low = glm::dot(normal, corners[0]);
+        const double high = glm::dot(normal, corners[axis]);
+        if (const double length = glm::length(normal); length > 0)
+            least = std::max(least, std::max(std::min(low, high), -std::max(low, high)) / length);
+    }
+    return least;
+}
+
+/// And to the plane of a triangle; 0 of one that has none.
+double distanceAtLeast(std::span<const Vec3, 3> corners) {
+    const Vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const double length = glm::length(normal);
+    return length > 0 ? std::abs(glm::dot(normal, corners[0])) / length : 0;
+}
+
+/// In pixels, how far apart two points are at most that are `off` apart, when one is `depth` away
+/// or more and at most as far off the axis as `secant` says.
+double apartPixels(const View& view, double off, double depth, double secant) {
+    return depth > off ? off * view.greatestFocalPixels() * (depth * secant + off) /
+                             ((depth - off) * (depth - off))
+                       : kInfinity;
+}
+
+/// How far what is seen of a surface, no nearer to the eye than `distance`, is drawn from where it
+/// is, in pixels, when that is up to `off` in space. A point that is drawn in the picture is of one
+/// in a frustum wider by what is known already, the distance alone at first
+/// (docs/errors.md#corners-far-away).
 template <typename SurfaceCorners>
-double displacementPixels(const View& view, const SurfaceCorners& corners, double off) {
-    for (const double marginPixels : {16.0, 256.0, 4096.0, 65536.0}) {
+double displacementPixels(const View& view, const SurfaceCorners& corners, double distance,
+                          double off) {
+    const double widest = std::sqrt(widestSecantSquared(view.frustum));
+    double known = apartPixels(view, off, (distance - off) / widest, widest);
+    while (known > kSnappedPixels && known < kInfinity) {
         const VisiblePart part =
-            visiblePart(corners, widened(view.frustum, marginPixels / view.focalPixels));
+            visiblePart(corners, widened(view.frustum, known / view.focalPixels));
         if (part.minDepth == kInfinity)
             return 0;
-        if (part.minDepth <= off)
-            return kInfinity;
-        const double bound = off * view.greatestFocalPixels() *
-                             std::sqrt(1 + part.maxTangentSquared) / (part.minDepth - off);
-        if (bound <= marginPixels)
-            return bound > kSnappedPixels ? bound : 0;
+        const double before = known;
+        known = std::min(
+            known, apartPixels(view, off, part.minDepth, std::sqrt(1 + part.maxTangentSquared)));
+        if (known > 0.9 * before)
+            break;
     }
-    return kInfinity;
+    return known > kSnappedPixels ? known : 0;
 }
 
 /// Exactly the ends at 0 and 1.
@@ -197,8 +235,8 @@ bool ObjectView::isVisible(const Box& bounds, const Frustum& frustum) const {
 
 fabric::PixelViewport ObjectView::coveredPixels(const Box& bounds) const {
     const fabric::PixelViewport whole{0, 0, view_.width, view_.height};
-    Frustum extent{kInfinity, -kInfinity, kInfinity,
-                   -kInfinity};  // of the box, on the plane at unit distance
+    // Of the box, on the plane at unit distance.
+    Frustum extent{kInfinity, -kInfinity, kInfinity, -kInfinity};
     for (const Vec3& p : viewCorners(bounds, viewFromObject_)) {
         if (p.z < fabric::kNearMetres)
             return whole;
@@ -248,21 +286,17 @@ bool ObjectView::isRoundedUnseen(const Box& reach, const Box& bounds) const {
     const Vec3 eye(objectFromView_[3]);
     const Vec3 near = glm::max(glm::max(bounds.min - eye, eye - bounds.max), Vec3(0.0));
     const Vec3 far = glm::max(glm::abs(reach.min - eye), glm::abs(reach.max - eye));
-    const Frustum& f = view_.frustum;
-    const double widestSquared = 1 + std::max(f.left * f.left, f.right * f.right) +
-                                 std::max(f.bottom * f.bottom, f.top * f.top);
     const double off = kCornerRounding * glm::length(far) * metresPerObjectUnit_;
-    return 2 * off * view_.greatestFocalPixels() * widestSquared <=
+    return 2 * off * view_.greatestFocalPixels() * widestSecantSquared(view_.frustum) <=
            kSnappedPixels * glm::length(near) * leastMetresPerObjectUnit_;
 }
 
 double ObjectView::roundingPixels(const Box& reach, const Box& bounds) const {
     if (isRoundedUnseen(reach, bounds))
         return 0;
-    if (bounds.contains(Vec3(objectFromView_[3])))
-        return isVisible(bounds) ? kInfinity : 0;
-    const double off = kCornerRounding * farthest(viewCorners(reach, viewFromObject_));
-    return displacementPixels(view_, viewCorners(bounds, viewFromObject_), off);
+    const Corners corners = viewCorners(bounds, viewFromObject_);
+    return displacementPixels(view_, corners, distanceAtLeast(corners),
+                              kCornerRounding * farthest(viewCorners(reach, viewFromObject_)));
 }
 
 double ObjectView::roundingPixels(std::span<const Vec3, 3> triangle) const {
@@ -274,8 +308,10 @@ double ObjectView::roundingPixels(std::span<const Vec3, 3> triangle) const {
     }
     if (isRoundedUnseen(bounds, bounds))
         return 0;
-    return displacementPixels(view_, std::span<const Vec3, 3>(corners),
-                              kCornerRounding * farthest(corners));
+    const std::span<const Vec3, 3> inView(corners);
+    const double distance =
+        std::max(distanceAtLeast(inView), distanceAtLeast(viewCorners(bounds, viewFromObject_)));
+    return displacementPixels(view_, inView, distance, kCornerRounding * farthest(corners));
 }
 
 }  // namespace eyrie::lod

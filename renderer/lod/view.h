@@ -92,10 +92,10 @@ public:
     /// What single precision makes of a surface, in pixels: an upper bound on how far what is seen
     /// of it in `bounds` is from where its corners say. `reach` holds all corners of the triangles
     /// that are drawn there: from near by, the rounding of one far away is many pixels. 0 where it
-    /// is less than OpenGL snaps corners to; infinite when the eye is in `bounds`.
+    /// is less than OpenGL snaps corners to; infinite when the surface may come to the eye by it.
     /// Proof: docs/errors.md#corners-far-away.
     double roundingPixels(const fabric::Box& reach, const fabric::Box& bounds) const;
-    /// The same of one triangle; infinite only where the surface itself reaches the eye.
+    /// The same of one triangle.
     double roundingPixels(std::span<const fabric::Vec3, 3> triangle) const;
 
     const View& view() const { return view_; }

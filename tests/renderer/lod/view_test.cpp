@@ -157,7 +157,8 @@ RC_GTEST_PROP(RoundingPixels, OfATriangleAreNeverBelowWhatItsCornersMoveIt, (uns
         if (weights.x < 0 || weights.y < 0 || weights.z < 0 ||
             !(inPicture(p, 1280, 720) || inPicture(q, 1280, 720)))
             continue;
-        RC_ASSERT(p && q && glm::distance(*p, *q) <= std::max(bound, 1.0 / 256) * (1 + 1e-6));
+        RC_ASSERT(std::isinf(bound) ||
+                  (p && q && glm::distance(*p, *q) <= std::max(bound, 1.0 / 256) * (1 + 1e-6)));
     }
 }
 
@@ -181,6 +182,49 @@ RC_GTEST_PROP(RoundingPixels, AllowForWhatFloatsMakeOfACorner, (unsigned seed)) 
         };
         const Vec3 drawn(row(0) / projection[0][0], row(1) / projection[1][1], -row(3));
         RC_ASSERT(glm::distance(drawn, exact) <= kRounding * glm::length(exact));
+    }
+}
+
+/// What is drawn of a surface that is beside the picture itself.
+RC_GTEST_PROP(RoundingPixels, HoldWhereRoundingBringsASurfaceIntoThePicture, (unsigned seed)) {
+    Dice dice(seed);
+    Camera camera;
+    camera.target = {1, 0, 0};
+    camera.fovYDegrees = dice.in(1, 60);
+    const double reach = std::exp(dice.in(8, 12));
+    // A wall along the line of sight, from a tenth of what it is rounded by to a hundred times
+    // that.
+    const double beside = kRounding * reach * std::exp(dice.in(-2.3, 4.6));
+    const double widest = std::tan(camera.fovYDegrees * M_PI / 360) * 1280 / 720;
+    const std::array<Vec3, 3> wall = {Vec3(-reach, beside, -reach), Vec3(-reach, beside, reach),
+                                      Vec3(reach, beside + 2 * widest * reach, 0)};
+    const ObjectView view(View(camera, 1280, 720), Mat4(1.0));
+    const double bound = std::max(view.roundingPixels(wall), 1.0 / 256);
+    for (int i = 0; i < 200; ++i) {
+        std::array<Vec3, 3> moved = wall;
+        for (Vec3& corner : moved) corner += dice.direction() * (kRounding * glm::length(corner));
+        const double a = dice.in(0, 1);
+        const double b = dice.in(0, 1 - a);
+        const Vec3 weights(a, b, 1 - a - b);
+        const auto p = project(camera, 1280, 720, WideTriangle::at(wall, weights));
+        const auto q = project(camera, 1280, 720, WideTriangle::at(moved, weights));
+        if (inPicture(p, 1280, 720) || inPicture(q, 1280, 720))
+            RC_ASSERT(bound == std::numeric_limits<double>::infinity() ||
+                      (p && q && glm::distance(*p, *q) <= bound * (1 + 1e-6)));
+    }
+}
+
+TEST(RoundingPixels, AreInfiniteWhereASurfaceMayComeToTheEye) {
+    Camera camera;
+    for (const double above : {0.001, 0.01, 1.0}) {
+        camera.eye = {0, 0, above};
+        camera.target = {1, 0, above + 1};  // the plain is not in the picture
+        const ObjectView view(View(camera, 1280, 720), Mat4(1.0));
+        const std::array<Vec3, 3> plain = {Vec3(-1e5, -1e5, 0), Vec3(1e5, -1e5, 0),
+                                           Vec3(0, 1e5, 0)};
+        const bool mayReach = above < 0.05;  // of 141 km
+        EXPECT_EQ(view.roundingPixels(plain),
+                  mayReach ? std::numeric_limits<double>::infinity() : 0);
     }
 }
 
