@@ -6,12 +6,12 @@
 #include <string_view>
 #include <system_error>
 
+#include <absl/strings/ascii.h>
 #include <fmt/format.h>
 #include <google/protobuf/struct.pb.h>
 #include <google/protobuf/util/json_util.h>
 
 #include "coordinator/api/data_sets.h"
-#include "coordinator/api/lower_case.h"
 #include "coordinator/api/work_folder.h"
 #include "fabric/name_beside.h"
 #include "fabric/status.h"
@@ -62,7 +62,7 @@ absl::StatusOr<std::string> nameOfPart(const std::string& part, const std::strin
             fmt::format("subdataset, of '{}': neither it nor the file's name may have colons, "
                         "quotes or control characters",
                         file));
-    const std::string ending = lowerCase(fs::path(file).extension().string());
+    const std::string ending = absl::AsciiStrToLower(fs::path(file).extension().string());
     if (ending == ".gpkg")
         return fmt::format("GPKG:{}:{}", file, part);
     if (ending == ".nc")

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include <absl/strings/ascii.h>
 #include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
@@ -15,7 +16,6 @@
 #include "coordinator/api/api_page.h"
 #include "coordinator/api/bench_reports.h"
 #include "coordinator/api/handlers.h"
-#include "coordinator/api/lower_case.h"
 #include "coordinator/api/media_types.h"
 #include "coordinator/api/openapi.h"
 #include "coordinator/api/problem_json.h"
@@ -68,7 +68,8 @@ bool wantsJson(std::string_view accept) {
 
 /// Pages of other sites can send a browser's forms here, but no JSON.
 absl::Status checkContentType(const RestRequest& request) {
-    std::string type = lowerCase(request.contentType.substr(0, request.contentType.find(';')));
+    std::string type =
+        absl::AsciiStrToLower(request.contentType.substr(0, request.contentType.find(';')));
     type.erase(type.find_last_not_of(" \t") + 1);
     if (request.body.empty() || type == "application/json")
         return absl::OkStatus();

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/http/origin.h"
 
-#include <algorithm>
 #include <string>
 
+#include <absl/strings/ascii.h>
 #include <boost/asio/ip/address.hpp>
 
 namespace eyrie::http {
 namespace {
-
-std::string lowerCase(std::string_view text) {
-    std::string result(text);
-    std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) {
-        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    });
-    return result;
-}
 
 /// "localhost" of "localhost:8080"; "::1" of "[::1]:8080".
 std::string_view hostName(std::string_view host) {
@@ -27,7 +19,7 @@ std::string_view hostName(std::string_view host) {
 bool isAddressOrLocalhost(std::string_view name) {
     boost::system::error_code error;
     boost::asio::ip::make_address(std::string(name), error);
-    return !error || lowerCase(name) == "localhost";
+    return !error || absl::AsciiStrToLower(std::string(name)) == "localhost";
 }
 
 }  // namespace
@@ -37,8 +29,8 @@ bool isAllowedOrigin(std::string_view origin, std::string_view host, bool localN
         return false;
     if (origin.empty())
         return true;
-    const std::string wanted = lowerCase(host);
-    const std::string found = lowerCase(origin);
+    const std::string wanted = absl::AsciiStrToLower(std::string(host));
+    const std::string found = absl::AsciiStrToLower(std::string(origin));
     return !wanted.empty() && (found == "http://" + wanted || found == "https://" + wanted);
 }
 

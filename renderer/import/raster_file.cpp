@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
 #include <memory>
 #include <set>
 
+#include <absl/strings/ascii.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <fcntl.h>
@@ -95,19 +95,13 @@ absl::Status checkWhole(const std::string& path, GDALDatasetH raster) {
                                            status.st_size, expected, whyUnreadable(path)));
 }
 
-std::string lowerCase(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 }  // namespace
 
 std::string gdalPath(const std::string& path) {
     if (path.starts_with("/vsi"))
         return path;
     const std::string name = page::gdalName(path);
-    const std::string plain = lowerCase(page::withoutQuery(path));
+    const std::string plain = absl::AsciiStrToLower(page::withoutQuery(path));
     if (plain.ends_with(".gz"))
         return "/vsigzip/" + name;
     if (plain.ends_with(".zip"))  // in braces it may go on after that

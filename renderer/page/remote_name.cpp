@@ -5,6 +5,7 @@
 #include <cctype>
 #include <utility>
 
+#include <absl/strings/ascii.h>
 #include <fmt/format.h>
 
 namespace eyrie::page {
@@ -13,19 +14,12 @@ namespace {
 constexpr std::string_view kCurl = "/vsicurl/";
 constexpr std::string_view kAny = "any";
 
-std::string lowerCase(std::string_view text) {
-    std::string lower(text);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return lower;
-}
-
 /// Of `s3://…` "s3", whatever its case; "" of what has none.
 std::string schemeOf(std::string_view path) {
     const std::size_t end = path.find("://");
     if (end == std::string_view::npos)
         return "";
-    const std::string scheme = lowerCase(path.substr(0, end));
+    const std::string scheme = absl::AsciiStrToLower(std::string(path.substr(0, end)));
     const auto isOfOne = [](unsigned char c) {
         return std::isalnum(c) != 0 || c == '+' || c == '.' || c == '-';
     };
@@ -50,7 +44,7 @@ std::string plain(std::string_view url) {
 
 /// Whether a part of it leads upwards, whichever way it is spelt: a prefix would say nothing then.
 bool climbs(std::string_view url) {
-    const std::string lower = lowerCase(url);
+    const std::string lower = absl::AsciiStrToLower(std::string(url));
     return lower.find("..") != std::string::npos || lower.find("%2e") != std::string::npos ||
            lower.find('\\') != std::string::npos;
 }
