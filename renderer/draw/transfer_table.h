@@ -18,8 +18,8 @@ inline constexpr int kTransferTexels = 2048;
 /// Looking it up costs the same for any function; on llvmpipe evaluating six primitives in every
 /// pixel costs half as much again (docs/benchmarks.md). The table is off by half of 1/255 a channel
 /// by rounding, and spreads each edge of a box over a 2047th of the relief; narrower primitives are
-/// that wide, and so never lost. Where nothing is
-/// coloured texels have their neighbours' colour, so that filtering does not darken what fades out.
+/// that wide, and so never lost. Where nothing is coloured texels have their neighbours' colour, so
+/// that filtering does not darken what fades out.
 std::vector<std::uint8_t> transferTable(const fabric::TransferFunction& function,
                                         double lowestMetres, double reliefMetres);
 
