@@ -84,7 +84,8 @@ absl::Status checkScheme(const std::string& path) {
 }
 
 std::string gdalName(const std::string& url) {
-    return isHttp(url) ? std::string(kCurl) + inLowerCase(url) : url;
+    const std::string address = plain(url);
+    return isHttp(address) ? std::string(kCurl) + address : url;
 }
 
 std::string withoutQuery(const std::string& path) {

@@ -20,6 +20,7 @@ TEST(RemoteName, IsAnAddressOrAVirtualFileSystemAndNothingElse) {
 TEST(RemoteName, OfAnAddressIsThatOfGdalsHttpFileSystem) {
     EXPECT_EQ(gdalName("https://h/a.eyt"), "/vsicurl/https://h/a.eyt");
     EXPECT_EQ(gdalName("HttpS://H/a.eyt"), "/vsicurl/https://H/a.eyt");
+    EXPECT_EQ(gdalName("/vsicurl/HTTPS://h/a.eyt"), "/vsicurl/https://h/a.eyt");
     EXPECT_EQ(gdalName("/vsis3/b/a.eyt"), "/vsis3/b/a.eyt");
 }
 
