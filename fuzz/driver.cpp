@@ -5,7 +5,7 @@
 //
 //   NAME CORPUS_FOLDER [INPUT]...     only the inputs, where there are some
 //
-// EYRIE_FUZZ_SECONDS: how long [20; 1 without the address sanitizer]. EYRIE_FUZZ_SEED: another
+// EYRIE_FUZZ_SECONDS: how long [10; 1 without the address sanitizer]. EYRIE_FUZZ_SEED: another
 // order [1]. An input on which the target dies, takes more than EYRIE_FUZZ_LIMIT_SECONDS of
 // processor time [1; 5 with the sanitizer] or 256 MiB more than before is left in NAME.crash.
 #include <algorithm>
@@ -37,7 +37,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMaxBytes = 64 * 1024;
 #ifdef __SANITIZE_ADDRESS__
-constexpr int kUsualSeconds = 20;
+constexpr int kUsualSeconds = 10;
 constexpr int kUsualLimit = 5;  // everything takes some times longer
 #else
 constexpr int kUsualSeconds = 1;  // less is seen, and the tests run with sanitizers, too
