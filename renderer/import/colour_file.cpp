@@ -15,6 +15,7 @@
 #include "fabric/status.h"
 #include "renderer/import/raster_file.h"
 #include "renderer/import/strip_order.h"
+#include "renderer/import/whole_decoding.h"
 
 namespace eyrie::import {
 namespace {
@@ -399,6 +400,7 @@ absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gd
     file.path = path;
     ASSIGN_OR_RETURN(Dataset dataset, openRaster(path, "a picture such as a GeoTIFF", gdal));
     RETURN_IF_ERROR(checkPlace(path, dataset.get()));
+    file.wholeBytes = wholeDecodingBytes(dataset.get());
     ASSIGN_OR_RETURN(const ColourRule rule,
                      colourRule(path, *GDALDataset::FromHandle(dataset.get()), file.notes));
     std::array<double, 6> t{};
