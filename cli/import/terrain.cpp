@@ -190,7 +190,8 @@ void addImportTerrain(CLI::App& parent, Run& run) {
     command
         ->add_option("--memory", options->memory,
                      "About as much is used; the rest goes to a scratch file. Beyond some billion "
-                     "posts it takes a byte for ten of them at least")
+                     "posts it takes a byte for ten of them at least. Pictures that can only be "
+                     "decoded whole, such as progressive JPEG and WebP, have to fit")
         ->type_name("BYTES")
         ->capture_default_str();
     command

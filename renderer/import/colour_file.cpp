@@ -15,6 +15,7 @@
 #include "fabric/status.h"
 #include "renderer/import/raster_file.h"
 #include "renderer/import/strip_order.h"
+#include "renderer/import/whole_decoding.h"
 
 namespace eyrie::import {
 namespace {
@@ -69,14 +70,17 @@ bool isNarrow(GDALRasterBand& band) {
     return band.GetMetadataItem("NBITS", "IMAGE_STRUCTURE") != nullptr;
 }
 
-/// Refuses bands that are no colours, or not of as many bits as the first.
+/// Refuses bands that are no colours, or not of as many bits as the first, and what is no alpha.
 absl::Status checkTypes(const std::string& path, GDALDataset& dataset,
-                        const std::array<int, 3>& colours) {
+                        const std::array<int, 3>& colours, int alpha) {
     const auto typeOf = [&](int band) { return dataset.GetRasterBand(band)->GetRasterDataType(); };
+    const auto isOf8Or16Bits = [](GDALDataType type) {
+        return type == GDT_Byte || type == GDT_UInt16 || type == GDT_Int16;
+    };
     const GDALDataType first = typeOf(colours[0]);
     for (const int band : colours) {
         const GDALDataType type = typeOf(band);
-        if (type != GDT_Byte && type != GDT_UInt16 && type != GDT_Int16)
+        if (!isOf8Or16Bits(type))
             return invalid(path,
                            fmt::format("its band {} holds {} values, not colours of 8 or 16 bits; "
                                        "turn it into them with gdal_translate -ot Byte -scale",
@@ -89,6 +93,11 @@ absl::Status checkTypes(const std::string& path, GDALDataset& dataset,
                                        colours[0], GDALGetDataTypeName(first), band,
                                        GDALGetDataTypeName(type)));
     }
+    if (alpha != 0 && !isOf8Or16Bits(typeOf(alpha)))
+        return invalid(path, fmt::format("its band {}, alpha, holds {} values, not ones of 8 or 16 "
+                                         "bits; turn it into them with gdal_translate -ot Byte "
+                                         "-scale_{} 0 MOST 0 255, MOST being what is opaque",
+                                         alpha, GDALGetDataTypeName(typeOf(alpha)), alpha));
     return absl::OkStatus();
 }
 
@@ -102,7 +111,7 @@ absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& data
     rule.alpha = bandTagged(dataset, GCI_AlphaBand);
     rule.colours = colourBands(dataset, rule.alpha);
     GDALRasterBand* const first = dataset.GetRasterBand(rule.colours[0]);
-    RETURN_IF_ERROR(checkTypes(path, dataset, rule.colours));
+    RETURN_IF_ERROR(checkTypes(path, dataset, rule.colours, rule.alpha));
     const GDALColorInterp tag = first->GetColorInterpretation();
     if (tag >= GCI_HueBand && tag <= GCI_YCbCr_CrBand)
         return invalid(path, fmt::format("its band {} is {}, and not red or grey; {}",
@@ -391,6 +400,7 @@ absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gd
     file.path = path;
     ASSIGN_OR_RETURN(Dataset dataset, openRaster(path, "a picture such as a GeoTIFF", gdal));
     RETURN_IF_ERROR(checkPlace(path, dataset.get()));
+    file.wholeBytes = wholeDecodingBytes(dataset.get());
     ASSIGN_OR_RETURN(const ColourRule rule,
                      colourRule(path, *GDALDataset::FromHandle(dataset.get()), file.notes));
     std::array<double, 6> t{};

@@ -25,6 +25,7 @@ struct ColourFile {
     /// The largest value outside of holes, at least 0, by findMost(), of a picture of more than 8
     /// bits that does not say what the most may be: nothing may be read before turnToBytes().
     std::optional<double> brightest;
+    std::uint64_t wholeBytes = 0;  ///< wholeDecodingBytes of it
     std::vector<std::string> notes;
 };
 

@@ -210,11 +210,12 @@ public:
         return absl::OkStatus();
     }
 
-    absl::StatusOr<OpenImagery> open(std::uint64_t cacheBytes, const ImportControl& control) {
+    absl::StatusOr<OpenImagery> open(std::uint64_t memoryBytes, const ImportControl& control) {
         if (layers_.empty())
             return absl::InvalidArgumentError(fmt::format(
                 "{}: no picture overlaps the terrain; check their coordinates and CRS (gdalinfo)",
                 names_));
+        ASSIGN_OR_RETURN(const std::uint64_t whole, wholeBytes(memoryBytes));
         RETURN_IF_ERROR(findMostOfAll(control));
         RETURN_IF_ERROR(turnAllToBytes());
         for (const Layer& layer : layers_)
@@ -235,15 +236,43 @@ public:
             layer.box = boxOf(layer.place, pyramid);
             ASSIGN_OR_RETURN(layer.warped, warpedTo(layer.file, grid_, shift, layer.box, gdal_));
         }
-        ASSIGN_OR_RETURN(const std::uint64_t reading, readStripsInOrder(shift, cacheBytes));
+        // What the cache grows by is taken twice, and as much is left to others.
+        const std::uint64_t most = (memoryBytes - std::min(memoryBytes, whole)) / 3;
+        ASSIGN_OR_RETURN(const std::uint64_t strips, readStripsInOrder(shift, most));
         notes_.push_back(fmt::format("imagery of {} x {} texels, 2^{} a post", pyramid.width(0),
                                      pyramid.height(0), shift));
-        return OpenImagery{
-            std::make_unique<LayeredImagery>(std::move(layers_), pyramid, grid_.frame, reading),
-            std::move(notes_)};
+        return OpenImagery{std::make_unique<LayeredImagery>(std::move(layers_), pyramid,
+                                                            grid_.frame, whole + strips),
+                           std::move(notes_)};
     }
 
 private:
+    /// That GDAL's cache has for strips anyway.
+    static constexpr std::uint64_t kRoom = kGdalCacheBytes / 2;
+
+    /// Bytes of memory for pictures that are decoded whole. ResourceExhausted where that is more
+    /// than there is.
+    absl::StatusOr<std::uint64_t> wholeBytes(std::uint64_t memoryBytes) const {
+        const ColourFile* largest = &layers_.front().file;
+        std::uint64_t all = 0;
+        int pictures = 0;
+        for (const Layer& layer : layers_) {
+            const ColourFile& file = layer.file;
+            all += file.wholeBytes;
+            pictures += file.wholeBytes > 0 ? 1 : 0;
+            if (file.wholeBytes > largest->wholeBytes)
+                largest = &file;
+        }
+        if (all <= memoryBytes + kRoom)
+            return all;
+        return absl::ResourceExhaustedError(fmt::format(
+            "{}: can only be decoded whole{}, which takes {} MB of memory, and --memory leaves {} "
+            "MB; allow more, or store it in tiles first (gdal_translate -co TILED=YES)",
+            largest->path,
+            pictures > 1 ? fmt::format(", as {} more of the pictures", pictures - 1) : "",
+            (all >> 20) + 1, memoryBytes >> 20));
+    }
+
     absl::Status findMostOfAll(const ImportControl& control) {
         for (std::size_t k = 0; k < layers_.size(); ++k)
             RETURN_IF_ERROR(findMost(layers_[k].file, [&](double fraction) {
@@ -310,7 +339,6 @@ private:
 
     /// Returns the bytes of memory that takes.
     absl::StatusOr<std::uint64_t> readStripsInOrder(int shift, std::uint64_t most) {
-        constexpr std::uint64_t kRoom = kGdalCacheBytes / 2;  // that it has for strips anyway
         std::vector<int> rows(layers_.size());
         std::vector<std::uint64_t> bytes(layers_.size());
         for (std::size_t k = 0; k < layers_.size(); ++k) {
@@ -348,13 +376,13 @@ private:
 
 absl::StatusOr<OpenImagery> openImagery(const std::vector<std::string>& paths,
                                         const terrain::GridFrame& frame, const std::string& crsWkt,
-                                        std::uint64_t cacheBytes, const ImportControl& control) {
+                                        std::uint64_t memoryBytes, const ImportControl& control) {
     Overlay overlay(frame, crsWkt);
     for (const std::string& path : paths) {
         RETURN_IF_ERROR(control.check());
         RETURN_IF_ERROR(overlay.add(path));
     }
-    return overlay.open(cacheBytes, control);
+    return overlay.open(memoryBytes, control);
 }
 
 }  // namespace eyrie::import

@@ -48,16 +48,19 @@ struct OpenImagery {
 /// last. A picture without a georeference is stretched over the whole terrain, north up; one
 /// without a CRS is taken to be in the terrain's.
 ///
-/// Pictures in strips are decoded about once where GDAL's cache holds the rows that a row of
-/// texture tiles takes: it grows for them, by `cacheBytes` at most. Notes say of which it cannot.
+/// `memoryBytes` is what reading may take, and what else needs memory while it does. Pictures that
+/// GDAL decodes whole have to fit. Pictures in strips are decoded about once where GDAL's cache
+/// holds the rows that a row of texture tiles takes: it grows for them, by a third of what is left
+/// at most. Notes say of which it cannot.
 ///
 /// Of pictures of more than 8 bits that do not say what the most may be all pixels are read first,
 /// which is reported as "looking for the brightest".
 ///
 /// Errors, naming the file: NotFound, InvalidArgument (no picture, not to be brought to the
-/// terrain, none overlaps it), ResourceExhausted (more texels than an .eyt holds), Cancelled.
+/// terrain, none overlaps it), ResourceExhausted (more texels than an .eyt holds; pictures that are
+/// decoded whole and do not fit), Cancelled.
 absl::StatusOr<OpenImagery> openImagery(const std::vector<std::string>& paths,
                                         const terrain::GridFrame& frame, const std::string& crsWkt,
-                                        std::uint64_t cacheBytes, const ImportControl& control);
+                                        std::uint64_t memoryBytes, const ImportControl& control);
 
 }  // namespace eyrie::import

@@ -70,16 +70,19 @@ absl::Status cannotBeOpened(const std::string& path, const char* wanted, QuietGd
                                      GDALVersionInfo("RELEASE_NAME"), error, wanted));
 }
 
+bool isOfDriver(GDALDatasetH raster, const char* name) {
+    const GDALDriverH driver = GDALGetDatasetDriver(raster);
+    return driver != nullptr && EQUAL(GDALGetDriverShortName(driver), name);
+}
+
 /// DataLoss for a file of ENVI that is shorter than its header says: GDAL takes what such a file
 /// lacks for zeros that were never written.
-absl::Status checkWhole(const std::string& path, GDALDatasetH raster) {
+absl::Status checkWholeFile(const std::string& path, GDALDatasetH raster) {
     const auto said = [raster](const char* field) -> std::uint64_t {
         const char* const text = GDALGetMetadataItem(raster, field, "ENVI");
         return text == nullptr ? 0 : std::strtoull(text, nullptr, 10);
     };
-    const GDALDriverH driver = GDALGetDatasetDriver(raster);
-    if (driver == nullptr || !EQUAL(GDALGetDriverShortName(driver), "ENVI") ||
-        said("file_compression") != 0)
+    if (!isOfDriver(raster, "ENVI") || said("file_compression") != 0)
         return absl::OkStatus();
     std::uint64_t expected = 1;
     for (const int factor :
@@ -93,6 +96,20 @@ absl::Status checkWhole(const std::string& path, GDALDatasetH raster) {
         return absl::OkStatus();
     return absl::DataLossError(fmt::format("{}: has {} bytes, and {} by its header; {}", path,
                                            status.st_size, expected, whyUnreadable(path)));
+}
+
+/// The same of a raster, and of all that a virtual one refers to.
+absl::Status checkWhole(const std::string& path, GDALDatasetH raster) {
+    RETURN_IF_ERROR(checkWholeFile(path, raster));
+    if (!isOfDriver(raster, "VRT"))
+        return absl::OkStatus();
+    const QuietGdal gdal;  // what is missing is found when it is read
+    for (const std::string& file : allFilesOf(raster))
+        if (const Dataset source(
+                GDALOpenEx(file.c_str(), GDAL_OF_RASTER, nullptr, nullptr, nullptr));
+            source)
+            RETURN_IF_ERROR(checkWholeFile(file, source.get()));
+    return absl::OkStatus();
 }
 
 }  // namespace

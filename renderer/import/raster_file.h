@@ -18,7 +18,8 @@ std::string gdalPath(const std::string& path);
 /// A raster by any name that GDAL knows, see raster_name.h. So that a mosaic may have thousands, it
 /// raises this process's limit of open files as far as it may be. Errors: NotFound;
 /// InvalidArgument when GDAL reads no raster there, where `wanted` says what to give instead;
-/// DataLoss when GDAL would take what the file lacks for zeros; those of checkOpenFiles.
+/// DataLoss when GDAL would take what the file, or one that it refers to, lacks for zeros; those of
+/// checkOpenFiles.
 absl::StatusOr<Dataset> openRaster(const std::string& path, const char* wanted, QuietGdal& gdal);
 
 /// InvalidArgument, naming the remedy, for a raster without a geotransform that says in another way

@@ -120,9 +120,9 @@ std::uint32_t texturesOf(const ImagerySource* imagery) {
                                     static_cast<std::uint32_t>(imagery->pyramid().tilesY(0));
 }
 
-std::uint64_t imageryCacheBytes(const HeightSource& posts, std::uint64_t memoryBytes) {
+std::uint64_t imageryBytes(const HeightSource& posts, std::uint64_t memoryBytes) {
     const std::uint64_t resident = residentBytes(posts, kImagery);
-    return memoryBytes > resident ? (memoryBytes - resident) / 3 : 0;
+    return memoryBytes > resident ? memoryBytes - resident : 0;
 }
 
 std::uint64_t scratchBytes(const HeightSource& posts, const ImagerySource* imagery,

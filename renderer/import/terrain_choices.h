@@ -37,9 +37,8 @@ terrain::EytIndex emptyIndex(const terrain::ElevationModel& model,
 /// Texture tiles of level 0 that imagery has; 0 of null.
 std::uint32_t texturesOf(const ImagerySource* imagery);
 
-/// By what GDAL's cache may grow for pictures, see openImagery: half of what is left to the
-/// scratch.
-std::uint64_t imageryCacheBytes(const HeightSource& posts, std::uint64_t memoryBytes);
+/// What reading pictures may take, see openImagery, and the scratch, before either has anything.
+std::uint64_t imageryBytes(const HeightSource& posts, std::uint64_t memoryBytes);
 
 /// Bytes of a scratch's memory, so that the whole process takes about `memoryBytes`, or as little
 /// more as it can.

@@ -226,9 +226,8 @@ absl::StatusOr<TerrainImportReport> importTerrain(HeightSource& posts, const Ter
     const ThreadLimit threads(options.threads);
     OpenImagery imagery;
     if (!options.imagery.empty()) {
-        ASSIGN_OR_RETURN(imagery,
-                         openImagery(options.imagery, posts.frame(), source.crsWkt,
-                                     imageryCacheBytes(posts, options.memoryBytes), control));
+        ASSIGN_OR_RETURN(imagery, openImagery(options.imagery, posts.frame(), source.crsWkt,
+                                              imageryBytes(posts, options.memoryBytes), control));
     }
     std::optional<PartSet> parts;
     if (options.mergesParts) {

@@ -218,9 +218,8 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(HeightSource& posts,
     RETURN_IF_ERROR(check(out, shard));
     OpenImagery imagery;
     if (!options.imagery.empty()) {
-        ASSIGN_OR_RETURN(imagery,
-                         openImagery(options.imagery, posts.frame(), source.crsWkt,
-                                     imageryCacheBytes(posts, options.memoryBytes), control));
+        ASSIGN_OR_RETURN(imagery, openImagery(options.imagery, posts.frame(), source.crsWkt,
+                                              imageryBytes(posts, options.memoryBytes), control));
     }
     RETURN_IF_ERROR(makeFolder(partsFolder(out)));
     ASSIGN_OR_RETURN(

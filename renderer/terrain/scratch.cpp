@@ -226,6 +226,7 @@ void Scratch::store(std::uint64_t place, const Piece& data, std::size_t bytes) {
 
 /// What was never written reads as zeros, as holes of a file do, also beyond its end.
 void Scratch::load(std::uint64_t place, std::span<std::byte> out) {
+    const std::uint64_t stored = stored_;  // of old: others write more meanwhile
     std::size_t have = 0;
     while (have < out.size() && (file() >= 0 || errno != ENOENT)) {
         const ssize_t got =
@@ -234,7 +235,7 @@ void Scratch::load(std::uint64_t place, std::span<std::byte> out) {
             continue;
         if (got < 0)
             fail("scratch file cannot be read");
-        if (got == 0 && place + have < stored_)
+        if (got == 0 && place + have < stored)
             fail(absl::DataLossError(fmt::format(
                 "{}: scratch file is shorter than what was written to it; see that nothing else "
                 "writes there, then run the same command again",

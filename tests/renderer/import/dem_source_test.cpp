@@ -386,8 +386,25 @@ TEST_F(DemSource, RefusesAFileOfEnviThatIsShorterThanItsHeaderSays) {
     GDALFillRaster(GDALGetRasterBand(file, 1), 100, 0);
     GDALClose(file);
     EXPECT_TRUE(test::readDem(path).ok());
+    const auto virtualOneOf = [&](const std::string& source) {
+        return written("of_" + source + ".vrt",
+                       "<VRTDataset rasterXSize=\"40\" rasterYSize=\"30\"><VRTRasterBand "
+                       "dataType=\"Int16\" band=\"1\"><SimpleSource><SourceFilename "
+                       "relativeToVRT=\"1\">" +
+                           source +
+                           "</SourceFilename><SourceBand>1</SourceBand></SimpleSource>"
+                           "</VRTRasterBand></VRTDataset>");
+    };
+    const std::string inner = virtualOneOf("cut.img");
+    const std::string outer = virtualOneOf("of_cut.img.vrt");
+    EXPECT_TRUE(test::readDem(outer).ok());
     std::filesystem::resize_file(path, 2398);
     expectRefused(path, absl::StatusCode::kDataLoss, "has 2398 bytes, and 2400 by its header");
+    for (const std::string& referring : {inner, outer}) {
+        const absl::Status status = test::readDem(referring).status();
+        EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss) << status;
+        EXPECT_THAT(status.ToString(), HasSubstr(path + ": has 2398 bytes")) << referring;
+    }
 }
 
 TEST_F(DemSource, WrittenAnewRemovesWhatAKilledWriterLeft) {

@@ -217,27 +217,33 @@ TEST_F(ImageryImport, RefusesWhatIsNoPicture) {
 
 TEST_F(ImageryImport, RefusesColoursOfSeveralDepthsNamingTheBand) {
     write(over(290, 290, 10, waves(300)));
-    const auto errorOf = [&](const char* green, const char* blue) {
+    const auto errorOf = [&](const char* green, const char* blue, const char* alpha = "Byte") {
         std::ofstream vrt(folder_.path("mixed.vrt"));
         vrt << "<VRTDataset rasterXSize=\"37\" rasterYSize=\"37\">";
         int number = 0;
-        for (const char* type : {"Byte", green, blue})
+        for (const char* type : {"Byte", green, blue, alpha}) {
+            ++number;
             vrt << fmt::format(
-                "<VRTRasterBand dataType=\"{0}\" band=\"{1}\"><SimpleSource>"
-                "<SourceFilename relativeToVRT=\"1\">picture.tif</SourceFilename>"
+                "<VRTRasterBand dataType=\"{0}\" band=\"{1}\"><ColorInterp>{2}</ColorInterp>"
+                "<SimpleSource><SourceFilename relativeToVRT=\"1\">picture.tif</SourceFilename>"
                 "<SourceBand>{1}</SourceBand></SimpleSource></VRTRasterBand>",
-                type, ++number);
+                type, number, number < 4 ? "Undefined" : "Alpha");
+        }
         vrt << "</VRTDataset>";
         vrt.close();
         return importError(test::slope(30, 30, 10), {folder_.path("mixed.vrt")});
     };
     EXPECT_TRUE(errorOf("Byte", "Byte").ok());
+    EXPECT_TRUE(errorOf("Byte", "Byte", "UInt16").ok()) << "its most is found";
     const absl::Status deep = errorOf("UInt16", "Byte");
     EXPECT_EQ(deep.code(), absl::StatusCode::kInvalidArgument);
     EXPECT_THAT(deep.ToString(), HasSubstr("its band 1 holds Byte values and its band 2 UInt16"));
     const absl::Status floats = errorOf("Byte", "Float32");
     EXPECT_EQ(floats.code(), absl::StatusCode::kInvalidArgument);
     EXPECT_THAT(floats.ToString(), HasSubstr("its band 3 holds Float32 values"));
+    const absl::Status shares = errorOf("Byte", "Byte", "Float32");
+    EXPECT_EQ(shares.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(shares.ToString(), HasSubstr("its band 4, alpha, holds Float32 values"));
 }
 
 TEST_F(ImageryImport, CutOffPictureIsDataLossAndLeavesNothing) {

@@ -20,7 +20,7 @@ eyrie_test(import_locks_test LABEL unit LINK eyrie_test_terrain)
 add_library(eyrie_test_imagery imagery_fixture.cpp)
 target_link_libraries(eyrie_test_imagery PUBLIC eyrie_test_terrain PRIVATE GDAL::GDAL)
 eyrie_test(imagery_import_test LABEL unit
-           SOURCES imagery_formats_test.cpp imagery_import_test.cpp imagery_places_test.cpp imagery_strips_test.cpp
+           SOURCES imagery_formats_test.cpp imagery_import_test.cpp imagery_places_test.cpp imagery_strips_test.cpp imagery_whole_test.cpp
            LINK eyrie_test_imagery GDAL::GDAL fmt::fmt)
 eyrie_test(terrain_kill_test LABEL unit LINK eyrie_test_imagery)
 eyrie_test(file_hash_test LABEL unit LINK eyrie_test_terrain eyrie::test_support)
