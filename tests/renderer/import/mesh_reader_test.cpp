@@ -347,7 +347,7 @@ fabric::Rgba colourWithLibrary(const test::TemporaryFolder& folder, const std::s
 TEST(MeshReader, TakesMaterialFilesWithNextToNothingInThem) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("a.obj"), "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    for (const char* content : {"", "\n", "# none\n", "# nothing\n"}) {
+    for (const char* content : {"", "\n", "# none\n", "# nothing\n", "newmtl\n"}) {
         test::writeFile(folder.file("a.mtl"), content);
         const auto mesh = readMesh(folder.file("a.obj"));
         ASSERT_TRUE(mesh.ok()) << mesh.status();
@@ -363,6 +363,39 @@ TEST(MeshReader, FindsMaterialFilesAsItFindsTextures) {
         std::vector<std::string> notes;
         EXPECT_EQ(colourWithLibrary(folder, name, notes), (fabric::Rgba{255, 0, 0, 255})) << name;
         EXPECT_THAT(notes, testing::IsEmpty()) << name;
+    }
+}
+
+TEST(MeshReader, TakesSeveralMaterialFilesOfALine) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("a model.mtl"), "newmtl a\nKd 1 0 0\n");
+    test::writeFile(folder.file("b.MTL"), "newmtl b\nKd 0 1 0\n");
+    test::writeFile(folder.file("m.obj"),
+                    "mtllib  a model.mtl  b.MTL \nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"
+                    "usemtl b\nf 1 2 3\n");
+    const std::vector<std::string> paths = {folder.file("m.obj")};
+    const auto mesh = readMesh(paths[0]);
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_THAT(mesh->notes, testing::IsEmpty());
+    EXPECT_EQ(mesh->colours[mesh->triangles[0][0]], (fabric::Rgba{255, 0, 0, 255}));
+    EXPECT_EQ(mesh->colours[mesh->triangles[1][0]], (fabric::Rgba{0, 255, 0, 255}));
+    const std::uint64_t before = *meshSourceHash(paths);
+    test::writeFile(folder.file("b.MTL"), "newmtl b\nKd 0 0 1\n");
+    EXPECT_NE(before, *meshSourceHash(paths));
+}
+
+TEST(MeshReader, TakesMaterialsHoweverTheirFileBegins) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    test::writeFile(folder.file("a.tga"), test::tgaOf(1, 1, {{9, 8, 7, 255}}));
+    for (const char* begin :
+         {"", "  ", "\t", "\xef\xbb\xbf ", "\n \r\n  ", "map_Kd b.tga\nKd 0 0 1\n"}) {
+        test::writeFile(folder.file("m.mtl"),
+                        std::string(begin) + "newmtl tiles\n  map_Kd a.tga\n  Kd 1 0 0\n");
+        const auto mesh = readMesh(folder.file("m.obj"));
+        ASSERT_TRUE(mesh.ok()) << begin << ": " << mesh.status();
+        EXPECT_EQ(mesh->images.size(), 1U) << begin;
+        EXPECT_EQ(mesh->colours[0], (fabric::Rgba{255, 0, 0, 255})) << begin;
     }
 }
 
