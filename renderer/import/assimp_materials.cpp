@@ -187,7 +187,7 @@ AssimpMaterials::Entry AssimpMaterials::read(const aiMaterial& material) {
     drawn.flags = sides == 2 ? mesh::kIsTwoSided : sides == 1 ? mesh::kIsOneSided : 0;
     const AlphaMode mode = alphaModeOf(material);
     if (mode == AlphaMode::Unknown && entry.colour.a <= 0) {
-        ++takenForOpaque_;
+        takenForOpaque_ += format_.extension == ".3mf" ? 0 : 1;  // which may have none
         entry.colour.a = 1;
     }
     entry.isOpaque = mode == AlphaMode::Opaque;
