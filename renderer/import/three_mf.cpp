@@ -3,7 +3,6 @@
 // Extension" 1.2, "Production Extension" 1.1.
 #include "renderer/import/three_mf.h"
 
-#include <algorithm>
 #include <optional>
 #include <set>
 
