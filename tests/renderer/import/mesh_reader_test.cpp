@@ -11,6 +11,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb/stb_image_write.h>
+
 #include "renderer/import/sgi_image.h"
 #include "renderer/import/texture_files.h"
 #include "renderer/mesh/eym_format.h"
@@ -268,6 +272,44 @@ TEST(MeshReader, CallsImagesThatAreCutOffDamaged) {
                         testing::Contains(HasSubstr(
                             fmt::format("'a.{}' is damaged (it ends too early)", ending))))
                 << length;
+    }
+}
+
+/// Of 40 x 24 texels, as the baseline of JPEG.
+std::string jpegOf() {
+    std::vector<std::uint8_t> texels;
+    for (int i = 0; i < 40 * 24 * 3; ++i) texels.push_back(static_cast<std::uint8_t>(i * i % 251));
+    std::string file;
+    const auto append = [](void* to, void* bytes, int size) {
+        static_cast<std::string*>(to)->append(static_cast<const char*>(bytes),
+                                              static_cast<std::size_t>(size));
+    };
+    stbi_write_jpg_to_func(append, &file, 40, 24, 3, texels.data(), 80);
+    return file;
+}
+
+TEST(MeshReader, TellsJpegsThatLackTheirEndFromThoseThatLackMore) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    test::writeFile(folder.file("m.mtl"), "newmtl tiles\nmap_Kd a.jpg\n");
+    const std::string whole = jpegOf();
+    const auto read = [&](const std::string& image) {
+        test::writeFile(folder.file("a.jpg"), image);
+        const auto mesh = readMesh(folder.file("m.obj"));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        return mesh.ok() ? *mesh : TriangleMesh{};
+    };
+    const std::size_t end = whole.size() - 2;
+    const TriangleMesh mesh = read(whole);
+    ASSERT_EQ(mesh.images.size(), 1U);
+    EXPECT_EQ(read(whole.substr(0, end)).images, mesh.images);
+    EXPECT_EQ(read(whole + "more").images, mesh.images);
+    for (const std::size_t length : {end - 1, end - 20, whole.size() / 2, std::size_t{300}}) {
+        const TriangleMesh cut = read(whole.substr(0, length));
+        EXPECT_THAT(cut.images, testing::IsEmpty()) << length;
+        EXPECT_THAT(cut.notes,
+                    testing::Contains(HasSubstr("'a.jpg' is damaged (it ends too early)")))
+            << length;
     }
 }
 
