@@ -193,13 +193,12 @@ absl::Status SceneMeshes::addFaces(const aiMesh& mesh, std::uint32_t first, bool
 void SceneMeshes::cutAway(const aiMesh& mesh, std::size_t firstTriangle) {
     const std::uint8_t least = byteOf(materials_.cutoffWithoutImage(mesh), false);
     const auto isCut = [&](std::uint32_t corner) { return result_.colours[corner].a < least; };
-    const auto cut = std::ranges::remove_if(
-        std::ranges::subrange(
-            result_.triangles.begin() + static_cast<std::ptrdiff_t>(firstTriangle),
-            result_.triangles.end()),
-        [&](const auto& triangle) { return std::ranges::all_of(triangle, isCut); });
-    cutAway_ += cut.size();
-    result_.triangles.erase(cut.begin(), cut.end());
+    const auto cut =
+        std::remove_if(result_.triangles.begin() + static_cast<std::ptrdiff_t>(firstTriangle),
+                       result_.triangles.end(),
+                       [&](const auto& triangle) { return std::ranges::all_of(triangle, isCut); });
+    cutAway_ += static_cast<std::size_t>(result_.triangles.end() - cut);
+    result_.triangles.erase(cut, result_.triangles.end());
 }
 
 absl::Status SceneMeshes::add(unsigned int number, const glm::dmat4& worldFromMesh) {

@@ -108,8 +108,9 @@ absl::StatusOr<std::uint64_t> countRecoloured3mfObjects(std::string_view model) 
     Colours colours;
     RETURN_IF_ERROR(forEachTag(model, [&](std::string_view tag) {
         const std::string_view kind = kindOf(tag);
-        const std::string_view part = xmlAttribute(tag, path);
-        if ((kind == "component" || kind == "item") && !part.empty())
+        const bool isPlaced = kind == "component" || kind == "item";
+        const std::string_view part = isPlaced ? xmlAttribute(tag, path) : std::string_view();
+        if (!part.empty())
             return absl::InvalidArgumentError(fmt::format(
                 "its object {} is in another part of it, '{}' (production extension), which is not "
                 "read; export it in one part, that is without that extension, or as STL or glTF",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/mesh_reader.h"
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -277,8 +279,9 @@ TEST(MeshReader, CallsImagesThatAreCutOffDamaged) {
 
 /// Of 40 x 24 texels, as the baseline of JPEG.
 std::string jpegOf() {
-    std::vector<std::uint8_t> texels;
-    for (int i = 0; i < 40 * 24 * 3; ++i) texels.push_back(static_cast<std::uint8_t>(i * i % 251));
+    std::array<std::uint8_t, 40 * 24 * 3> texels{};
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        texels[i] = static_cast<std::uint8_t>(i * i % 251);
     std::string file;
     const auto append = [](void* to, void* bytes, int size) {
         static_cast<std::string*>(to)->append(static_cast<const char*>(bytes),
