@@ -95,7 +95,7 @@ public:
         const std::string found = findTexture(asNamed(name), path_);
         const auto file = mesh::MappedFile::open(found.empty() ? name : found);
         return file.ok() ? streamOf(fromFirstMaterial(textOf(*file)))
-                         : DefaultIOSystem::Open(name, mode);
+                         : MendedFiles::Open(name, mode);
     }
 
 private:
