@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is read of models before Assimp reads them, or beside it, of any bytes: X3D, COLLADA, AMF,
-// DXF, STL, OFF, OBJ and its material files. What one has mended needs no mending.
+// DXF, STL, OFF, OBJ and its material files, models of 3MF. What one has mended needs no mending.
 #include <cstdint>
 #include <cstdlib>
 #include <span>
@@ -15,6 +15,7 @@
 #include "renderer/import/off_text.h"
 #include "renderer/import/stl_colours.h"
 #include "renderer/import/stl_length.h"
+#include "renderer/import/three_mf.h"
 #include "renderer/import/uri_name.h"
 #include "renderer/import/x3d_text.h"
 
@@ -37,6 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const auto& [name, material] : objMaterialsOf(text))
         if (withoutPercents(material.texture.name).size() > material.texture.name.size())
             std::abort();
+    (void)countRecoloured3mfObjects(text);
     const auto stl = stlForAssimp(bytes);
     if (stl && (stl->size() != size || wrongLengthOfStl(std::as_bytes(std::span(*stl)))))
         std::abort();

@@ -11,6 +11,7 @@
 #include "renderer/import/amf_text.h"
 #include "renderer/import/dxf_text.h"
 #include "renderer/import/gltf_extensions.h"
+#include "renderer/import/obj_text.h"
 #include "renderer/import/off_text.h"
 #include "renderer/import/xml_tag.h"
 
@@ -137,12 +138,13 @@ std::vector<std::string> objCaveats(std::string_view text) {
         lines += std::ranges::any_of(kLeftOut, begins) ? 1 : 0;
         at = std::min(text.find('\n', at), text.size() - 1) + 1;
     }
-    if (lines == 0)
-        return {};
-    return {fmt::format(
-        "left out {} free-form surfaces, curves or calls of other files: turn them into polygons, "
-        "of this file, before export",
-        lines)};
+    std::vector<std::string> caveats = objVertexCaveats(text);
+    if (lines > 0)
+        caveats.push_back(
+            fmt::format("left out {} free-form surfaces, curves or calls of other files: turn them "
+                        "into polygons, of this file, before export",
+                        lines));
+    return caveats;
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include <absl/status/statusor.h>
 #include <assimp/DefaultIOSystem.h>
@@ -18,6 +17,7 @@
 #include "renderer/import/collada_text.h"
 #include "renderer/import/dxf_text.h"
 #include "renderer/import/obj_text.h"
+#include "renderer/import/obj_textures.h"
 #include "renderer/import/off_text.h"
 #include "renderer/import/texture_files.h"
 #include "renderer/import/uri_name.h"
@@ -67,6 +67,11 @@ Assimp::IOStream* streamOf(std::string_view text) {
     return std::make_unique<Assimp::MemoryIOStream>(bytes.release(), text.size(), true).release();
 }
 
+std::string_view textOf(const mesh::MappedFile& file) {
+    const auto bytes = file.bytes();
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 class MendedFiles : public Assimp::DefaultIOSystem {
 public:
     Assimp::IOStream* Open(const char* name, const char* mode) override {
@@ -74,9 +79,7 @@ public:
         const absl::StatusOr<mesh::MappedFile> file = mesh::MappedFile::open(name);
         if (format == nullptr || !isMended(*format) || !file.ok())
             return DefaultIOSystem::Open(name, mode);
-        const auto read = file->bytes();
-        const std::string_view source(reinterpret_cast<const char*>(read.data()), read.size());
-        const std::optional<std::string> text = mended(source, *format);
+        const std::optional<std::string> text = mended(textOf(*file), *format);
         return text ? streamOf(*text) : DefaultIOSystem::Open(name, mode);
     }
 };
@@ -90,17 +93,12 @@ public:
         if (name == path_)
             return MendedFiles::Open(name, mode);
         const std::string found = findTexture(asNamed(name), path_);
-        const std::string file = found.empty() ? name : found;
-        std::error_code error;
-        const std::uintmax_t size = std::filesystem::file_size(file, error);
-        return !error && size < kLeastMaterialBytes ? streamOf("")
-                                                    : MendedFiles::Open(file.c_str(), mode);
+        const auto file = mesh::MappedFile::open(found.empty() ? name : found);
+        return file.ok() ? streamOf(fromFirstMaterial(textOf(*file)))
+                         : MendedFiles::Open(name, mode);
     }
 
 private:
-    /// "newmtl a"; Assimp takes an empty file, and refuses an OBJ whose material file has less.
-    static constexpr std::uintmax_t kLeastMaterialBytes = 8;
-
     /// As the OBJ names it: Assimp puts the OBJ's folder before that, and leaves blanks after it.
     std::string asNamed(std::string_view name) const {
         std::string folder = std::filesystem::path(path_).parent_path().string();

@@ -187,10 +187,11 @@ AssimpMaterials::Entry AssimpMaterials::read(const aiMaterial& material) {
     drawn.flags = sides == 2 ? mesh::kIsTwoSided : sides == 1 ? mesh::kIsOneSided : 0;
     const AlphaMode mode = alphaModeOf(material);
     if (mode == AlphaMode::Unknown && entry.colour.a <= 0) {
-        ++takenForOpaque_;
+        takenForOpaque_ += format_.extension == ".3mf" ? 0 : 1;  // which may have none
         entry.colour.a = 1;
     }
     entry.isOpaque = mode == AlphaMode::Opaque;
+    entry.cutoff = mode == AlphaMode::Mask ? cutoffOf(material) : 0;
     if (mode == AlphaMode::Blend || (mode == AlphaMode::Unknown && entry.colour.a < 1))
         drawn.flags |= mesh::kIsBlended;
     entry.withoutImage = number(drawn);
@@ -198,8 +199,7 @@ AssimpMaterials::Entry AssimpMaterials::read(const aiMaterial& material) {
     drawn.image = readTexture(material, entry);
     if (!drawn.hasImage())
         return entry;
-    if (mode == AlphaMode::Mask)
-        drawn.alphaCutoff = cutoffOf(material);
+    drawn.alphaCutoff = entry.cutoff;
     if (mode == AlphaMode::Unknown)
         drawn.flags |= kAlphaByImage;
     const bool isBlack = entry.colour.r == 0 && entry.colour.g == 0 && entry.colour.b == 0;
@@ -239,6 +239,11 @@ aiColor4D AssimpMaterials::colourOf(const aiMesh& mesh) const {
 bool AssimpMaterials::isOpaque(const aiMesh& mesh) const {
     const Entry* entry = find(mesh);
     return entry == nullptr || entry->isOpaque;
+}
+
+float AssimpMaterials::cutoffWithoutImage(const aiMesh& mesh) const {
+    const Entry* entry = find(mesh);
+    return entry == nullptr || materials_[numberOf(mesh)].hasImage() ? 0 : entry->cutoff;
 }
 
 /// Assimp's v goes up.

@@ -29,6 +29,8 @@ public:
     aiColor4D colourOf(const aiMesh& mesh) const;
     /// Whether alpha is of no account, whatever it is.
     bool isOpaque(const aiMesh& mesh) const;
+    /// Of surfaces without an image, those whose alpha is less are not there at all.
+    float cutoffWithoutImage(const aiMesh& mesh) const;
     glm::vec2 textureCoordinates(const aiMesh& mesh, unsigned int vertex) const;
 
     /// Hands materials and textures over, with a note of what was odd; nothing else may be asked
@@ -42,6 +44,7 @@ private:
         std::uint16_t number = 0;        ///< in materials_
         std::uint16_t withoutImage = 0;  ///< for meshes without texture coordinates
         bool isOpaque = true;
+        float cutoff = 0;          ///< of alpha
         unsigned int channel = 0;  ///< of texture coordinates
         bool isProjected = false;  ///< onto meshes, whatever coordinates these have
         glm::dmat3 placeFromSource{1.0};

@@ -89,6 +89,7 @@ private:
     void addTextureCoordinates(const aiMesh& mesh);
     absl::Status addFaces(const aiMesh& mesh, std::uint32_t first, bool isMirrored);
     absl::Status addFace(const aiFace& face, std::uint32_t first);
+    void cutAway(const aiMesh& mesh, std::size_t firstTriangle);
     void noteWhatIsLeftOut();
     void noteRounding();
 
@@ -99,6 +100,7 @@ private:
     bool hasNormals_ = false;
     bool hasColours_ = false;
     double farthest_ = 0;  // metres of a vertex from its mesh's own origin
+    std::size_t cutAway_ = 0;
     TriangleMesh result_;
     std::vector<std::uint32_t> corners_;  // of the face being added
 };
@@ -187,6 +189,18 @@ absl::Status SceneMeshes::addFaces(const aiMesh& mesh, std::uint32_t first, bool
     return absl::OkStatus();
 }
 
+/// Takes away the triangles that are one hole by the alpha of their corners.
+void SceneMeshes::cutAway(const aiMesh& mesh, std::size_t firstTriangle) {
+    const std::uint8_t least = byteOf(materials_.cutoffWithoutImage(mesh), false);
+    const auto isCut = [&](std::uint32_t corner) { return result_.colours[corner].a < least; };
+    const auto cut =
+        std::remove_if(result_.triangles.begin() + static_cast<std::ptrdiff_t>(firstTriangle),
+                       result_.triangles.end(),
+                       [&](const auto& triangle) { return std::ranges::all_of(triangle, isCut); });
+    cutAway_ += static_cast<std::size_t>(result_.triangles.end() - cut);
+    result_.triangles.erase(cut, result_.triangles.end());
+}
+
 absl::Status SceneMeshes::add(unsigned int number, const glm::dmat4& worldFromMesh) {
     const aiMesh& mesh = *scene_.mMeshes[number];
     const std::size_t first = result_.positions.size();
@@ -198,8 +212,12 @@ absl::Status SceneMeshes::add(unsigned int number, const glm::dmat4& worldFromMe
         addColours(number);
     if (materials_.areAny())
         addTextureCoordinates(mesh);
-    return addFaces(mesh, static_cast<std::uint32_t>(first),
-                    glm::determinant(glm::dmat3(worldFromMesh)) < 0);
+    const std::size_t firstTriangle = result_.triangles.size();
+    RETURN_IF_ERROR(addFaces(mesh, static_cast<std::uint32_t>(first),
+                             glm::determinant(glm::dmat3(worldFromMesh)) < 0));
+    if (hasColours_)
+        cutAway(mesh, firstTriangle);
+    return absl::OkStatus();
 }
 
 void SceneMeshes::noteWhatIsLeftOut() {
@@ -209,6 +227,11 @@ void SceneMeshes::noteWhatIsLeftOut() {
             fmt::format("left out its animations, {} of them: everything stays where "
                         "the file's nodes put it",
                         scene_.mNumAnimations));
+    if (cutAway_ > 0)
+        result_.notes.push_back(fmt::format(
+            "left out {} triangles whose opacity is below the cutoff of their material, "
+            "which nobody would see",
+            cutAway_));
     const std::span meshes(scene_.mMeshes, scene_.mNumMeshes);
     const auto bent =
         std::ranges::count_if(meshes, [](const aiMesh* one) { return one->HasBones(); });

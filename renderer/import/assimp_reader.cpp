@@ -36,6 +36,7 @@
 #include "renderer/import/obj_materials.h"
 #include "renderer/import/stl_colours.h"
 #include "renderer/import/stl_length.h"
+#include "renderer/import/three_mf.h"
 #include "renderer/mesh/mapped_file.h"
 
 namespace eyrie::import {
@@ -87,6 +88,9 @@ absl::StatusOr<const aiScene*> parse(Assimp::Importer& importer, const std::stri
                                            format.isGltf()              ? "glb"
                                            : format.extension == ".stl" ? "stl"
                                                                         : "ac");
+    if (format.extension == ".3mf") {
+        ASSIGN_OR_RETURN(notes, notesOf3mf(path));
+    }
     const aiScene* scene = importer.ReadFile(path, 0);
     if (scene != nullptr && format.extension == ".obj")
         notes = applyObjMaterials(path, textOf(file), *scene);

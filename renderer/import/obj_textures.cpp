@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstddef>
+#include <iterator>
 #include <system_error>
 
 namespace eyrie::import {
@@ -49,10 +50,18 @@ void takeNumbers(std::string_view& text, glm::vec2& numbers) {
     }
 }
 
-/// In whatever case, as Assimp takes it.
-bool isMapKd(std::string_view keyword) {
-    return std::ranges::equal(keyword, std::string_view("map_kd"), {},
+bool isInAnyCase(std::string_view word, std::string_view lowerCase) {
+    return std::ranges::equal(word, lowerCase, {},
                               [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+}
+
+/// In whatever case, as Assimp takes it.
+bool isMapKd(std::string_view keyword) { return isInAnyCase(keyword, "map_kd"); }
+
+bool endsLibrary(std::string_view word) {
+    constexpr std::string_view kEnding = ".mtl";
+    return word.size() > kEnding.size() &&
+           isInAnyCase(word.substr(word.size() - kEnding.size()), kEnding);
 }
 
 struct Option {
@@ -101,6 +110,19 @@ std::vector<std::string> texturesOfMtl(std::string_view mtl) {
     return names;
 }
 
+std::vector<std::string> namesOfLibraries(std::string_view arguments) {
+    std::vector<std::string> names;
+    std::string_view name = trimmed(arguments);
+    for (std::string_view rest = name; !rest.empty();) {
+        const std::string_view word = takeWord(rest);
+        if (!rest.empty() && !endsLibrary(word))
+            continue;
+        names.emplace_back(name.data(), word.data() + word.size());
+        name = rest;
+    }
+    return names;
+}
+
 std::vector<std::string> librariesOfObj(std::string_view obj) {
     constexpr std::string_view kLibrary = "mtllib";
     std::vector<std::string> names;
@@ -109,20 +131,31 @@ std::vector<std::string> librariesOfObj(std::string_view obj) {
         const std::size_t line = obj.find_last_of("\r\n", at) + 1;
         std::string_view rest = obj.substr(at + kLibrary.size());
         if (obj.substr(line, at - line).find('#') == std::string_view::npos)  // no comment
-            names.emplace_back(takeLine(rest));
+            std::ranges::move(namesOfLibraries(takeLine(rest)), std::back_inserter(names));
     }
     std::ranges::sort(names);
     names.erase(std::unique(names.begin(), names.end()), names.end());
     return names;
 }
 
-std::map<std::string, ObjMaterial> objMaterialsOf(std::string_view mtl) {
+std::string_view fromFirstMaterial(std::string_view mtl) {
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
     if (mtl.starts_with(kByteOrderMark))
         mtl.remove_prefix(kByteOrderMark.size());
+    while (!mtl.empty()) {
+        std::string_view rest = mtl;
+        std::string_view line = takeLine(rest);
+        if (takeWord(line) == "newmtl" && !line.empty())
+            return mtl.substr(mtl.find_first_not_of(kBlank));
+        mtl = rest;
+    }
+    return mtl;
+}
+
+std::map<std::string, ObjMaterial> objMaterialsOf(std::string_view mtl) {
     std::map<std::string, ObjMaterial> materials;
-    ObjMaterial before;  // what stands before the first is no material's
-    ObjMaterial* material = &before;
+    ObjMaterial* material = nullptr;  // which the first line makes
+    mtl = fromFirstMaterial(mtl);
     while (!mtl.empty()) {
         std::string_view line = takeLine(mtl);
         const std::string_view keyword = takeWord(line);

@@ -27,8 +27,17 @@ ObjTexture parseMapKd(std::string_view arguments);
 /// The names of all textures of an .mtl file, sorted.
 std::vector<std::string> texturesOfMtl(std::string_view mtl);
 
+/// The names that follow `mtllib`: each ends with ".mtl", in whatever case, before a blank, and
+/// may have blanks in it; the last ends with the line.
+std::vector<std::string> namesOfLibraries(std::string_view arguments);
+
 /// The names of all material files of an OBJ, sorted, each once.
 std::vector<std::string> librariesOfObj(std::string_view obj);
+
+/// An .mtl file without what stands before its first `newmtl`, which is no material's. Assimp fails
+/// on textures there, passes over a first line that is indented, and refuses a file of one byte to
+/// seven; it takes an empty one.
+std::string_view fromFirstMaterial(std::string_view mtl);
 
 /// What an .mtl file says of a material.
 struct ObjMaterial {

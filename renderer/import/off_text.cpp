@@ -27,6 +27,16 @@ std::string_view takeWord(std::string_view& text, std::string_view blank = kBlan
     return word;
 }
 
+/// Whether the line of a vertex with a normal and a colour gives an opacity that is not whole.
+bool hasOpacity(std::string_view line) {
+    constexpr int kBefore = 9;
+    for (int i = 0; i < kBefore; ++i) takeWord(line);
+    const std::string_view word = takeWord(line);
+    double opacity = 0;
+    const auto read = std::from_chars(word.data(), word.data() + word.size(), opacity);
+    return read.ec == std::errc() && opacity != 1 && opacity != 255;
+}
+
 std::size_t countWords(std::string_view line) {
     std::size_t count = 0;
     while (!takeWord(line).empty()) ++count;
@@ -39,6 +49,7 @@ public:
     explicit OffLines(std::string_view off) : rest_(off) {
         std::string_view first = takeHeaderWord();
         isColoured_ = first == "COFF";
+        hasNormalsBeforeColours_ = first == "CNOFF";
         if (first.ends_with("OFF"))
             first = takeHeaderWord();
         isRead_ = count(first, vertices_) && count(takeHeaderWord(), faces_);
@@ -48,6 +59,7 @@ public:
     bool isRead() const { return isRead_; }
     /// By vertices' colours, and nothing else.
     bool isColoured() const { return isColoured_; }
+    bool hasNormalsBeforeColours() const { return hasNormalsBeforeColours_; }
     std::uint64_t vertices() const { return vertices_; }
     std::uint64_t faces() const { return faces_; }
 
@@ -79,7 +91,7 @@ private:
     }
 
     std::string_view rest_;
-    bool isRead_ = false, isColoured_ = false;
+    bool isRead_ = false, isColoured_ = false, hasNormalsBeforeColours_ = false;
     std::uint64_t vertices_ = 0, faces_ = 0;
 };
 
@@ -106,10 +118,10 @@ std::vector<std::string> offCaveats(std::string_view off) {
     OffLines lines(off);
     if (!lines.isRead())
         return {};
-    for (std::uint64_t i = 0; i < lines.vertices() && !lines.next().empty(); ++i) {
-    }
-    std::uint64_t faces = 0, coloured = 0, large = 0, more = 0;
+    std::uint64_t faces = 0, coloured = 0, large = 0, more = 0, notOpaque = 0;
     std::string_view line;
+    for (std::uint64_t i = 0; i < lines.vertices() && !(line = lines.next()).empty(); ++i)
+        notOpaque += lines.hasNormalsBeforeColours() && hasOpacity(line) ? 1 : 0;
     for (; faces < lines.faces() && !(line = lines.next()).empty(); ++faces) {
         std::uint64_t corners = 0;
         const std::string_view word = takeWord(line);
@@ -124,6 +136,11 @@ std::vector<std::string> offCaveats(std::string_view off) {
             fmt::format("its header counts {} faces, and it has {}, as files do that were cut off: "
                         "copy or export it again if anything is missing",
                         lines.faces(), faces));
+    if (notOpaque > 0)
+        caveats.push_back(
+            fmt::format("left out the opacity of {} vertices, which have normals, too: leave these "
+                        "out (COFF), or export it as glTF",
+                        notOpaque));
     if (coloured > 0)
         caveats.push_back(
             fmt::format("left out the colours of {} faces: give them to vertices", coloured));

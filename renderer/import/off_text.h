@@ -12,8 +12,8 @@ namespace eyrie::import {
 /// three numbers: they are opaque. Nothing for one without.
 std::optional<std::string> offForAssimp(std::string_view off);
 
-/// For TriangleMesh::notes: colours of faces, faces of more corners than Assimp reads, and where
-/// there are fewer or more than the header counts.
+/// For TriangleMesh::notes: opacities of vertices that have normals, colours of faces, faces of
+/// more corners than Assimp reads, and where there are fewer or more than the header counts.
 std::vector<std::string> offCaveats(std::string_view off);
 
 }  // namespace eyrie::import

@@ -25,6 +25,7 @@
 #include <stb/stb_image.h>
 
 #include "fabric/status.h"
+#include "renderer/import/jpeg_end.h"
 #include "renderer/import/mesh_reader.h"
 #include "renderer/import/reading_process.h"
 #include "renderer/import/sgi_image.h"
@@ -61,16 +62,20 @@ int sizeOf(std::span<const std::byte> bytes) {
     return static_cast<int>(std::min<std::size_t>(bytes.size(), 1U << 30));
 }
 
+using Texels = std::unique_ptr<stbi_uc, decltype(&stbi_image_free)>;
+
 /// Hands out an image's bytes, and knows whether more were asked for than there are: of TGA, BMP
 /// and others stb_image takes whatever it has for what lies behind their end.
 class CountedBytes {
 public:
     explicit CountedBytes(std::span<const std::byte> bytes) : rest_(bytes) {}
 
-    stbi_uc* decode(int& width, int& height) {
+    /// Null where it cannot.
+    Texels decode(int& width, int& height) {
         const stbi_io_callbacks callbacks = {read, skip, isAtEnd};
         int channels = 0;
-        return stbi_load_from_callbacks(&callbacks, this, &width, &height, &channels, 4);
+        return {stbi_load_from_callbacks(&callbacks, this, &width, &height, &channels, 4),
+                &stbi_image_free};
     }
 
     bool isOverrun() const { return isOverrun_; }
@@ -119,6 +124,24 @@ absl::StatusOr<mesh::ImageShape> shapeOf(std::span<const std::byte> bytes) {
     return shape;
 }
 
+/// The texels of a JPEG that lacks its end, where nothing else is missing: they are the same then
+/// whatever follows, and are not where zeros and ones take the place of something. Null otherwise.
+Texels decodeWithoutEnd(std::span<const std::byte> bytes, int& width, int& height) {
+    const auto decodedWith = [&](std::string_view between) {
+        return CountedBytes(withJpegEnd(bytes, between)).decode(width, height);
+    };
+    Texels none(nullptr, &stbi_image_free);
+    if (!isOneJpegScan(bytes))
+        return none;
+    Texels texels = decodedWith("");  // for zeros
+    const Texels others = decodedWith(std::string(64, '\xAA'));
+    const auto size =
+        sizeof(fabric::Rgba) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    return texels && others && std::memcmp(texels.get(), others.get(), size) == 0
+               ? std::move(texels)
+               : std::move(none);
+}
+
 absl::StatusOr<std::vector<fabric::Rgba>> decode(std::span<const std::byte> bytes,
                                                  mesh::ImageShape& shape) {
     if (looksLikeSgi(bytes))
@@ -126,11 +149,12 @@ absl::StatusOr<std::vector<fabric::Rgba>> decode(std::span<const std::byte> byte
     ASSIGN_OR_RETURN(shape, shapeOf(bytes));
     int width = 0, height = 0;
     CountedBytes counted(bytes);
-    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> texels(counted.decode(width, height),
-                                                                      &stbi_image_free);
-    if (!texels)
+    const bool lacksEnd = lacksJpegEnd(bytes);
+    const Texels texels =
+        lacksEnd ? decodeWithoutEnd(bytes, width, height) : counted.decode(width, height);
+    if (!texels && !lacksEnd)
         return absl::InvalidArgumentError(fmt::format("is damaged ({})", stbi_failure_reason()));
-    if (counted.isOverrun())
+    if (!texels || counted.isOverrun())
         return absl::InvalidArgumentError("is damaged (it ends too early)");
     shape.width = static_cast<std::uint32_t>(width);
     shape.height = static_cast<std::uint32_t>(height);

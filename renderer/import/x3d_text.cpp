@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -71,20 +72,60 @@ std::string transformForAssimp(std::string_view tag) {
     return withValue(tag, value, fmt::format("{} {}", other.x, other.y));
 }
 
+/// Of strips of so many vertices each, which follow each other; empty where there are more than so
+/// many in all.
+std::string indicesOfStrips(std::string_view counts, std::uint64_t mostVertices) {
+    std::string indices;
+    std::uint64_t first = 0;
+    while (true) {
+        counts.remove_prefix(std::min(counts.find_first_not_of(kBlank), counts.size()));
+        std::uint64_t count = 0;
+        const auto read = std::from_chars(counts.data(), counts.data() + counts.size(), count);
+        if (read.ec != std::errc())
+            return indices;
+        counts.remove_prefix(static_cast<std::size_t>(read.ptr - counts.data()));
+        if (count > mostVertices - first)
+            return {};
+        for (std::uint64_t i = first; i < first + count; ++i) indices += fmt::format("{} ", i);
+        indices += "-1 ";
+        first += count;
+    }
+}
+
+/// A file has no more vertices than bytes.
+std::string stripsForAssimp(std::string_view tag, std::uint64_t fileBytes) {
+    const std::string indices = indicesOfStrips(xmlAttribute(tag, "stripCount"), fileBytes);
+    return fmt::format("<IndexedTriangleStripSet index='{}'{}", indices,
+                       tag.substr(std::string_view("<TriangleStripSet").size()));
+}
+
+constexpr std::array<std::string_view, 4> kMended = {"<ImageTexture", "<TextureTransform",
+                                                     "<TriangleStripSet", "</TriangleStripSet"};
+
+std::string tagForAssimp(std::string_view tag, std::uint64_t fileBytes) {
+    if (tag.starts_with(kMended[0]))
+        return imageForAssimp(tag);
+    if (tag.starts_with(kMended[1]))
+        return transformForAssimp(tag);
+    return tag.starts_with(kMended[2]) ? stripsForAssimp(tag, fileBytes)
+                                       : "</IndexedTriangleStripSet>";
+}
+
 }  // namespace
 
 std::string x3dForAssimp(std::string_view x3d) {
     std::string result;
-    for (std::size_t at = 0; at < x3d.size();) {
-        const std::size_t image = x3d.find("<ImageTexture", at);
-        const std::size_t transform = x3d.find("<TextureTransform", at);
-        const std::size_t begin = std::min({image, transform, x3d.size()});
-        result += x3d.substr(at, begin - at);
-        const std::string_view tag = x3d.substr(begin, endOfTag(x3d.substr(begin)));
-        result += begin == image ? imageForAssimp(tag) : transformForAssimp(tag);
-        at = begin + tag.size();
+    std::size_t copied = 0;
+    for (std::size_t at = x3d.find('<'); at != std::string_view::npos;) {
+        const std::string_view rest = x3d.substr(at);
+        if (std::ranges::any_of(kMended, [&](auto begin) { return rest.starts_with(begin); })) {
+            const std::string_view tag = rest.substr(0, endOfTag(rest));
+            result.append(x3d.substr(copied, at - copied)).append(tagForAssimp(tag, x3d.size()));
+            copied = at + tag.size();
+        }
+        at = x3d.find('<', std::max(copied, at + 1));
     }
-    return result;
+    return result.append(x3d.substr(copied));
 }
 
 }  // namespace eyrie::import

@@ -8,8 +8,9 @@ namespace eyrie::import {
 
 /// An X3D file as Assimp 5.2 takes it for what the format means (ISO/IEC 19775-1 and 19776-1):
 /// of an image's names the first, without its quotes and with %20 for its spaces, as Assimp
-/// refuses "wall.png" and loses spaces; and the centre of a texture's transform so that Assimp,
-/// which takes it away from the translation and knows it no more, comes to the same places.
+/// refuses "wall.png" and loses spaces; the centre of a texture's transform so that Assimp, which
+/// takes it away from the translation and knows it no more, comes to the same places; and strips of
+/// triangles, for which Assimp refuses the file, as those with indices.
 std::string x3dForAssimp(std::string_view x3d);
 
 }  // namespace eyrie::import

@@ -341,11 +341,47 @@ TEST(AssimpReader, TakesColoursThatReachTo255AsSuch) {
     EXPECT_EQ(colourAt(folder.file("m.obj"), bright, 1), (fabric::Rgba{255, 128, 0, 255}));
 }
 
+TEST(AssimpReader, PassesOverWhatPolygonsOfAnObjHaveNoUseFor) {
+    const test::TemporaryFolder folder;
+    const auto read = [&](const std::string& vertices) {
+        test::writeFile(folder.file("m.obj"), vertices + "f 1 2 3\n");
+        const auto mesh = readWithAssimp(folder.file("m.obj"));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        return mesh.ok() ? *mesh : TriangleMesh{};
+    };
+    for (const char* weight : {"1", "2.5", "0", "-1 # heavy"})
+        EXPECT_THAT(read(fmt::format("v 0 0 0\nv 2 0 0 {0}\nv 0 2 .5 {0}\n", weight)).positions,
+                    ElementsAre(fabric::Vec3(0), fabric::Vec3(2, 0, 0), fabric::Vec3(0, 2, 0.5)));
+    for (const char* more : {"1 5", "1 0 0 1 .5", "1 0 0 0 0 1 7"}) {
+        const TriangleMesh mesh = read(fmt::format("v 0 0 0\nv 2 0 0 {0}\nv 0 2 0 {0}\n", more));
+        EXPECT_EQ(mesh.positions.size(), 3U);
+        EXPECT_THAT(mesh.colours, IsEmpty());
+        EXPECT_THAT(mesh.notes, ElementsAre(HasSubstr("all but the places of 2 vertices")));
+    }
+}
+
+/// Behind a weight of 1, and before an opacity.
+TEST(AssimpReader, FindsTheColoursAmongSevenNumbersOfAnObjsVertices) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.file("m.obj");
+    const auto objOf = [](const char* numbers) {
+        return fmt::format("v 1 0 0 {}\nv 2 0 0\nv 0 9 0 1 0 1 1\nf 1 2 3\n", numbers);
+    };
+    EXPECT_EQ(colourAt(path, objOf("1 0.5 0 0"), 1), (fabric::Rgba{128, 0, 0, 255}));
+    EXPECT_EQ(colourAt(path, objOf("1 .5 0 1"), 1), (fabric::Rgba{255, 128, 0, 255}));
+    EXPECT_EQ(colourAt(path, objOf("0 .5 1 0.2"), 1), (fabric::Rgba{0, 128, 255, 255}));
+    EXPECT_EQ(colourAt(path, objOf("0 .5 1 0.2"), 2), (fabric::Rgba{255, 255, 255, 255}));
+    EXPECT_THAT(notesOfFile(path, objOf("0 0.5 1 1")), IsEmpty());
+    EXPECT_THAT(notesOfFile(path, objOf("0 0.5 1 0.2")),
+                ElementsAre(HasSubstr("the opacity of 1 vertices")));
+}
+
 TEST(ObjForAssimp, LeavesAsTheyAreFilesThatAreReadRightly) {
     EXPECT_FALSE(objForAssimp("# .5\no a .5 # b\nv 0.5 -.5 1.\nvn 0 0 1\nf 1 2 3\n"));
     EXPECT_FALSE(objForAssimp(""));
     EXPECT_FALSE(objForAssimp("f 1 2\\\n 3\n")) << "which goes on";
     EXPECT_EQ(objForAssimp("v .5 .5 1\r\to .5\rvt .1 # .1\r"), "v 0.5 0.5 1\ro .5\rvt 0.1 \r");
+    EXPECT_FALSE(objForAssimp("mtllib a b.MTL\nmtllib a.mtl\nmtllib c.x d.x\n"));
 }
 
 TEST(AssimpReader, SaysHowLongABinaryStlOughtToBe) {

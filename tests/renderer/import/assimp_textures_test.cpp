@@ -112,6 +112,33 @@ TEST(AssimpReader, LeavesTheAlphaOfAGltfsImagesAsItIs) {
     EXPECT_EQ(materialOf(1).alphaCutoff, 0.25F);
 }
 
+/// The second triangle of kTexturedGltf without its image: the factor's alpha decides.
+TEST(AssimpReader, LeavesOutWhatAGltfCutsAwayWithoutAnImage) {
+    const test::TemporaryFolder folder;
+    const auto read = [&](std::string_view alpha) {
+        const std::string factor = fmt::format(
+            R"("doubleSided":true,"pbrMetallicRoughness":{{"baseColorFactor":[1,0,0,{}]}}}})",
+            alpha);
+        test::writeFile(folder.file("m.gltf"), texturedGltf(R"("doubleSided":true,
+"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})",
+                                                            factor));
+        const auto mesh = readMesh(folder.file("m.gltf"));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        return mesh.ok() ? *mesh : TriangleMesh{};
+    };
+    const auto isTold = testing::Contains(HasSubstr("left out 1 triangles whose opacity"));
+    for (const char* alpha : {"1", "0.3", "0.25"}) {
+        const TriangleMesh mesh = read(alpha);
+        EXPECT_EQ(mesh.triangles.size(), 3U) << alpha;
+        EXPECT_THAT(mesh.notes, testing::Not(isTold));
+    }
+    for (const char* alpha : {"0.24", "0"}) {
+        const TriangleMesh mesh = read(alpha);
+        EXPECT_EQ(mesh.triangles.size(), 2U) << alpha;
+        EXPECT_THAT(mesh.notes, isTold);
+    }
+}
+
 /// Where the point at u = 1 or v = 1 of a texture comes to by a KHR_texture_transform, v downwards.
 glm::vec2 transformedPlace(std::string_view transform, bool isV) {
     const test::TemporaryFolder folder;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/mesh_reader.h"
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -10,6 +12,10 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb/stb_image_write.h>
 
 #include "renderer/import/sgi_image.h"
 #include "renderer/import/texture_files.h"
@@ -271,6 +277,45 @@ TEST(MeshReader, CallsImagesThatAreCutOffDamaged) {
     }
 }
 
+/// Of 40 x 24 texels, as the baseline of JPEG.
+std::string jpegOf() {
+    std::array<std::uint8_t, 40 * 24 * 3> texels{};
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        texels[i] = static_cast<std::uint8_t>(i * i % 251);
+    std::string file;
+    const auto append = [](void* to, void* bytes, int size) {
+        static_cast<std::string*>(to)->append(static_cast<const char*>(bytes),
+                                              static_cast<std::size_t>(size));
+    };
+    stbi_write_jpg_to_func(append, &file, 40, 24, 3, texels.data(), 80);
+    return file;
+}
+
+TEST(MeshReader, TellsJpegsThatLackTheirEndFromThoseThatLackMore) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    test::writeFile(folder.file("m.mtl"), "newmtl tiles\nmap_Kd a.jpg\n");
+    const std::string whole = jpegOf();
+    const auto read = [&](const std::string& image) {
+        test::writeFile(folder.file("a.jpg"), image);
+        const auto mesh = readMesh(folder.file("m.obj"));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        return mesh.ok() ? *mesh : TriangleMesh{};
+    };
+    const std::size_t end = whole.size() - 2;
+    const TriangleMesh mesh = read(whole);
+    ASSERT_EQ(mesh.images.size(), 1U);
+    EXPECT_EQ(read(whole.substr(0, end)).images, mesh.images);
+    EXPECT_EQ(read(whole + "more").images, mesh.images);
+    for (const std::size_t length : {end - 1, end - 20, whole.size() / 2, std::size_t{300}}) {
+        const TriangleMesh cut = read(whole.substr(0, length));
+        EXPECT_THAT(cut.images, testing::IsEmpty()) << length;
+        EXPECT_THAT(cut.notes,
+                    testing::Contains(HasSubstr("'a.jpg' is damaged (it ends too early)")))
+            << length;
+    }
+}
+
 /// An SGI image of 3 x 2 texels with alpha, rows from the bottom, one channel after the other.
 std::string sgiOf(bool isCoded) {
     std::string file(512, '\0');
@@ -347,7 +392,7 @@ fabric::Rgba colourWithLibrary(const test::TemporaryFolder& folder, const std::s
 TEST(MeshReader, TakesMaterialFilesWithNextToNothingInThem) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("a.obj"), "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    for (const char* content : {"", "\n", "# none\n", "# nothing\n"}) {
+    for (const char* content : {"", "\n", "# none\n", "# nothing\n", "newmtl\n"}) {
         test::writeFile(folder.file("a.mtl"), content);
         const auto mesh = readMesh(folder.file("a.obj"));
         ASSERT_TRUE(mesh.ok()) << mesh.status();
@@ -363,6 +408,39 @@ TEST(MeshReader, FindsMaterialFilesAsItFindsTextures) {
         std::vector<std::string> notes;
         EXPECT_EQ(colourWithLibrary(folder, name, notes), (fabric::Rgba{255, 0, 0, 255})) << name;
         EXPECT_THAT(notes, testing::IsEmpty()) << name;
+    }
+}
+
+TEST(MeshReader, TakesSeveralMaterialFilesOfALine) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("a model.mtl"), "newmtl a\nKd 1 0 0\n");
+    test::writeFile(folder.file("b.MTL"), "newmtl b\nKd 0 1 0\n");
+    test::writeFile(folder.file("m.obj"),
+                    "mtllib  a model.mtl  b.MTL \nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"
+                    "usemtl b\nf 1 2 3\n");
+    const std::vector<std::string> paths = {folder.file("m.obj")};
+    const auto mesh = readMesh(paths[0]);
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_THAT(mesh->notes, testing::IsEmpty());
+    EXPECT_EQ(mesh->colours[mesh->triangles[0][0]], (fabric::Rgba{255, 0, 0, 255}));
+    EXPECT_EQ(mesh->colours[mesh->triangles[1][0]], (fabric::Rgba{0, 255, 0, 255}));
+    const std::uint64_t before = *meshSourceHash(paths);
+    test::writeFile(folder.file("b.MTL"), "newmtl b\nKd 0 0 1\n");
+    EXPECT_NE(before, *meshSourceHash(paths));
+}
+
+TEST(MeshReader, TakesMaterialsHoweverTheirFileBegins) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    test::writeFile(folder.file("a.tga"), test::tgaOf(1, 1, {{9, 8, 7, 255}}));
+    for (const char* begin :
+         {"", "  ", "\t", "\xef\xbb\xbf ", "\n \r\n  ", "map_Kd b.tga\nKd 0 0 1\n"}) {
+        test::writeFile(folder.file("m.mtl"),
+                        std::string(begin) + "newmtl tiles\n  map_Kd a.tga\n  Kd 1 0 0\n");
+        const auto mesh = readMesh(folder.file("m.obj"));
+        ASSERT_TRUE(mesh.ok()) << begin << ": " << mesh.status();
+        EXPECT_EQ(mesh->images.size(), 1U) << begin;
+        EXPECT_EQ(mesh->colours[0], (fabric::Rgba{255, 0, 0, 255})) << begin;
     }
 }
 

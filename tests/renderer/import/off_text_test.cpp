@@ -48,6 +48,14 @@ TEST(OffForAssimp, HasTheColoursOfVerticesBehindTheirNormals) {
     }
 }
 
+TEST(OffCaveats, CountOpacitiesBehindNormals) {
+    for (const char* opaque : {"", "1", "1.0 # .5"})
+        EXPECT_THAT(read(offOf("CN", std::string("0 0 1 1 .5 0 ") + opaque)).notes, IsEmpty());
+    EXPECT_THAT(read(offOf("CN", "0 0 1 1 .5 0 .25")).notes,
+                ElementsAre(HasSubstr("left out the opacity of 3 vertices")));
+    EXPECT_THAT(read(offOf("C", "1 .5 0 .25")).notes, IsEmpty());
+}
+
 TEST(OffForAssimp, LeavesAsTheyAreFilesThatAreReadRightly) {
     EXPECT_FALSE(offForAssimp(""));
     EXPECT_FALSE(offForAssimp("COFF\n"));

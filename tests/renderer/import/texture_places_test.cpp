@@ -123,6 +123,25 @@ TEST(NodesOfX3d, ThatAreShapesAndNotReadAreNamed) {
                 ElementsAre(HasSubstr("shapes of the kinds NurbsPatchSurface, QuadSet,")));
 }
 
+TEST(NodesOfX3d, ThatAreStripsAreReadAsThoseWithIndices) {
+    const auto meshOf = [](std::string_view kind, std::string_view strips) {
+        return read("m.x3d",
+                    fmt::format("<?xml version='1.0'?><X3D version='3.0'><Scene><Shape><{0} {1}>"
+                                "<Coordinate point='0 0 0 1 0 0 0 1 0 1 1 0 5 0 0 6 0 0 5 1 0'/>"
+                                "<Color color='1 0 0 0 1 0 0 0 1 1 1 1 1 0 0 0 1 0 0 0 1'/>"
+                                "</{0}></Shape></Scene></X3D>",
+                                kind, strips));
+    };
+    const TriangleMesh mesh = meshOf("TriangleStripSet", "solid='false' stripCount='4, 3'");
+    const TriangleMesh indexed =
+        meshOf("IndexedTriangleStripSet", "solid='false' index='0 1 2 3 -1 4 5 6 -1'");
+    EXPECT_EQ(mesh.triangles.size(), 3U);
+    EXPECT_EQ(mesh.positions, indexed.positions);
+    EXPECT_EQ(mesh.triangles, indexed.triangles);
+    EXPECT_EQ(mesh.colours, indexed.colours);
+    EXPECT_LT(x3dForAssimp("<TriangleStripSet stripCount='4 4000000000'>").size(), 100U);
+}
+
 TEST(ColoursOfX3d, OfFacesAreToldOf) {
     constexpr const char* kOfCorners = "colorIndex='0 1 0 -1 1 0 1 -1'";
     constexpr const char* kOfFaces = "colorPerVertex = 'false' colorIndex='0 1'";
