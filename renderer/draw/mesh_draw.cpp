@@ -12,6 +12,7 @@
 
 #include "fabric/status.h"
 #include "renderer/draw/box_lines.h"
+#include "renderer/draw/depth_limit.h"
 #include "renderer/draw/hidden_backs.h"
 #include "renderer/draw/mesh_choice.h"
 #include "renderer/draw/mesh_paging.h"
@@ -115,8 +116,8 @@ private:
                            fabric::FrameStatistics& statistics);
     /// Programs of which the object is set.
     using Prepared = std::map<Program::Variant, const Program*>;
-    absl::Status prepare(const mesh::Material& material, const FrameState& frame,
-                         Prepared& prepared);
+    absl::StatusOr<const Program*> prepare(const mesh::Material& material, const FrameState& frame,
+                                           Prepared& prepared);
     absl::Status drawByMaterial(std::span<const Piece> pieces, const FrameState& frame,
                                 fabric::FrameStatistics& statistics);
     absl::Status drawPoints(const Piece& piece, const FrameState& frame,
@@ -237,21 +238,25 @@ absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameS
     const HiddenBacks backs(mayHideBacks(bounds(), frame, worldFromObject_), lids_, view,
                             frame.part);
     const SeenBoxes seen(view, frame);
+    DepthLimit limit(view);
     for (const Piece& piece : pieces) {
         const DeviceNode* node = choice_.node(piece.index);
         const auto fronts = static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
         if (piece.points > 0) {
+            limit.lift();
             RETURN_IF_ERROR(drawPoints(piece, frame, statistics));
             use(*program, frame);
         } else {
             source(*node);
             colour(piece, frame);
+            program->depthScale(limit.holdTo(piece.bounds));
             const IndexRun all{0, node->indexCount, fronts};
             backs.draw(seenOf(piece, seen), piece, all.within(piece), singleSided_);
             statistics.triangles += piece.triangles;
         }
         if (frame.look.tileBounds) {
             // At once, so that where depths tie the lower range wins as in compositing.
+            limit.lift();
             boxLines_.draw(piece.bounds, levelColour(levelOf(piece.index)));
             use(*program, frame);
         }
@@ -278,8 +283,8 @@ void MeshDrawable::drawMaterial(const SeenTriangles& triangles, const IndexRun& 
 }
 
 /// Uses the program that draws a material.
-absl::Status MeshDrawable::prepare(const mesh::Material& material, const FrameState& frame,
-                                   Prepared& prepared) {
+absl::StatusOr<const Program*> MeshDrawable::prepare(const mesh::Material& material,
+                                                     const FrameState& frame, Prepared& prepared) {
     Program::Variant variant{variantFor(frame, worldFromObject_), {}};
     variant.gouraud = frame.shading == fabric::Shading::Gouraud;
     variant.textured = !material.hasImage() ? 0 : frame.view.step == fabric::Vec2(1) ? 1 : 2;
@@ -296,7 +301,7 @@ absl::Status MeshDrawable::prepare(const mesh::Material& material, const FrameSt
         program->picture(textures_.texture(material.image));
     if (material.alphaCutoff > 0)
         program->alphaCutoff(material.alphaCutoff);
-    return absl::OkStatus();
+    return program;
 }
 
 absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const FrameState& frame,
@@ -307,6 +312,7 @@ absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const F
     const HiddenBacks backs(mayHideBacks(bounds(), frame, worldFromObject_), lids_, view,
                             frame.part);
     const SeenBoxes seen(view, frame);
+    DepthLimit limit(view);
     const bool hasBoxes = frame.look.tileBounds && frame.layer == Layer::Opaque;
     if (hasBoxes)
         RETURN_IF_ERROR(boxLines_.begin(frame.view, worldFromObject_));
@@ -317,6 +323,7 @@ absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const F
         if (piece.points == 0) {
             source(node);
         } else if (frame.layer == Layer::Opaque) {
+            limit.lift();
             RETURN_IF_ERROR(drawPoints(piece, frame, statistics));
             bind(frame);
             glVertexAttribI4ui(Program::kPackedColour.location, uniformColour_, 0, 0, 0);
@@ -329,13 +336,15 @@ absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const F
                                static_cast<GLsizei>(range.frontIndexCount)};
             const IndexRun run = all.within(piece);
             if (material.isBlended() == (frame.layer == Layer::Blended) && run.count > 0) {
-                RETURN_IF_ERROR(prepare(material, frame, prepared));
+                ASSIGN_OR_RETURN(const Program* program, prepare(material, frame, prepared));
+                program->depthScale(limit.holdTo(piece.bounds));
                 drawMaterial(triangles, run, material, piece, backs);
                 statistics.triangles += static_cast<std::uint64_t>(run.count / 3);
             }
             first += all.count;
         }
         if (hasBoxes) {
+            limit.lift();
             boxLines_.draw(piece.bounds, levelColour(levelOf(piece.index)));
             bind(frame);
         }

@@ -65,7 +65,8 @@ private:
 ///
 /// Larger than that of the nearest corner by a part in 512. A pixel's depth is interpolated in
 /// single precision and, vertices being snapped to 1/256 pixel, may lie beyond the triangle's own:
-/// by 3.4e-5 of the distance on a comb of 4,000 m walls (docs/errors.md#rasterisation).
+/// meshes are held to this depth (draw/depth_limit.h); of terrain 3.4e-5 of the distance was seen,
+/// on a comb of 4,000 m walls (docs/errors.md#rasterisation).
 float nearestReversedDepth(const lod::ObjectView& view, const fabric::Box& bounds);
 
 /// True only if nothing within `bounds` (object space) changes a pixel of the pyramid's area, in
