@@ -20,6 +20,9 @@ std::string percentages(const std::vector<mesh::LodLevel>& levels,
     return text + " %";
 }
 
+/// Of those that are left: more tell that the lattice is too coarse.
+constexpr double kMostWithoutArea = 0.01;
+
 double borderShareOf(const mesh::LodLevel& level) { return level.points.borderShare(); }
 
 }  // namespace
@@ -32,6 +35,12 @@ std::vector<std::string> notesOf(const import::MeshImportReport& made) {
             fmt::format("left out {} faces of fewer than three corners, {} triangles without area, "
                         "{} that were there already",
                         made.droppedFaces, counts.degenerateTriangles, counts.duplicateTriangles));
+    if (static_cast<double>(counts.degenerateTriangles) >
+        kMostWithoutArea * static_cast<double>(made.triangles))
+        notes.push_back(fmt::format(
+            "corners are rounded to {:.3g} m, as they are in a mesh of this extent: where many "
+            "triangles are smaller, look for vertices far from all others, or split the mesh",
+            made.stepMetres));
     const auto most = std::ranges::max_element(made.levels, {}, borderShareOf);
     if (most != made.levels.end() && borderShareOf(*most) > mesh::kMostBorderShare)
         notes.push_back(fmt::format(

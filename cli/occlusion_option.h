@@ -29,7 +29,8 @@ inline std::string nameOf(fabric::Occlusion occlusion) {
 inline void addOcclusionOption(CLI::App& command, fabric::Occlusion& occlusion) {
     command
         .add_option("--occlusion", occlusion,
-                    "Leave out what is hidden; the picture is the same [auto: where it pays]")
+                    "Leave out what is hidden, by what the frame before showed; the picture is the "
+                    "same [auto: where it pays]")
         ->transform(valueOf(occlusionModes()))
         ->type_name("auto|on|off");
 }

@@ -13,6 +13,7 @@
 #include <oneapi/tbb/parallel_sort.h>
 
 #include "renderer/import/mesh_reader.h"
+#include "renderer/import/pack_mesh.h"
 #include "renderer/import/ply_reader.h"
 #include "renderer/mesh/vertex_packing.h"
 
@@ -140,15 +141,6 @@ absl::Status writeTriangles(MeshSpool& spool, const ImportControl& control) {
                 std::exchange(spool.triangleCount, spool.triangleCount + rows.size());
             return spool.triangles.write(first, rows);
         });
-}
-
-absl::Status checkAreLeft(const MeshSpool& spool, std::uint64_t triangles) {
-    if (triangles > 0)
-        return absl::OkStatus();
-    return absl::InvalidArgumentError(
-        fmt::format("faces: found {} triangles, none with any area, expected at least one; "
-                    "export the mesh again with its faces",
-                    spool.collapsedTriangles + spool.sourceTriangles));
 }
 
 using Corners = std::array<std::uint64_t, 3>;
@@ -279,14 +271,16 @@ absl::Status placeOnLattice(MeshSpool& spool, int latticeBits, std::uint64_t atO
                             const ImportControl& control) {
     control.report("welding", 0);
     RETURN_IF_ERROR(removeCollapsed(spool, control));
-    RETURN_IF_ERROR(checkAreLeft(spool, spool.sourceTriangles));
+    if (spool.sourceTriangles == 0)
+        return nothingHasArea(spool.collapsedTriangles);
     ASSIGN_OR_RETURN(spool.lattice, latticeOf(spool, latticeBits));
     RETURN_IF_ERROR(writeTriangles(spool, control));
     counts.degenerateTriangles =
         spool.collapsedTriangles + spool.sourceTriangles - spool.triangleCount;
     counts.isolatedVertices =
         static_cast<std::uint64_t>(std::count(spool.isUsed.begin(), spool.isUsed.end(), false));
-    RETURN_IF_ERROR(checkAreLeft(spool, spool.triangleCount));
+    if (spool.triangleCount == 0)
+        return nothingHasArea(counts.degenerateTriangles, spool.lattice.stepMetres);
     ASSIGN_OR_RETURN(spool.source, RowFile<mesh::Triangle>::create(outPath));  // done with
     RETURN_IF_ERROR(dropDuplicates(spool, atOnce, outPath, counts, control));
     control.report("welding", 1);

@@ -231,16 +231,6 @@ void splitAtCreases(Packing& packing, double creaseDegrees, PackCounts& counts) 
     counts.normalsComputed = true;
 }
 
-/// `total`: triangles of the source.
-absl::Status checkAreLeft(const TriangleMesh& source, std::size_t total) {
-    if (!source.triangles.empty())
-        return absl::OkStatus();
-    return absl::InvalidArgumentError(
-        fmt::format("faces: found {} triangles, none with any area, expected at least one; "
-                    "export the mesh again with its faces",
-                    total));
-}
-
 /// Whether corners that lie in the same places have the same colours and texture coordinates.
 bool looksAlike(const Packing& packing, const mesh::Triangle& a, const mesh::Triangle& b) {
     const TriangleMesh& source = packing.source;
@@ -311,6 +301,19 @@ mesh::PackedMesh gather(const Weld& welded, const std::vector<VertexKey>& keys, 
 
 }  // namespace
 
+absl::Status nothingHasArea(std::uint64_t triangles, double stepMetres) {
+    if (stepMetres == 0)
+        return absl::InvalidArgumentError(
+            fmt::format("faces: found {} triangles, none with any area, expected at least one; "
+                        "export the mesh again with its faces",
+                        triangles));
+    return absl::InvalidArgumentError(fmt::format(
+        "faces: found {} triangles, none with any area where corners are rounded to {:.3g} m, as "
+        "they are in a mesh of this extent; export it again with its faces, without vertices far "
+        "from all others",
+        triangles, stepMetres));
+}
+
 absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& counts,
                                           const PackOptions& options,
                                           const ImportControl& control) {
@@ -320,7 +323,8 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
     std::erase_if(source.triangles, [&source](const mesh::Triangle& triangle) {
         return isCollapsed(source, triangle);
     });
-    RETURN_IF_ERROR(checkAreLeft(source, total));
+    if (source.triangles.empty())
+        return nothingHasArea(total);
     const std::vector<std::uint8_t> used = findUsed(source);
     ASSIGN_OR_RETURN(const mesh::Lattice lattice,
                      options.lattice
@@ -331,7 +335,8 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
     std::erase_if(packing.source.triangles, [&packing](const mesh::Triangle& triangle) {
         return !hasArea(packing.keys, triangle);
     });
-    RETURN_IF_ERROR(checkAreLeft(packing.source, total));
+    if (packing.source.triangles.empty())
+        return nothingHasArea(total, lattice.stepMetres);
     counts.degenerateTriangles = total - packing.source.triangles.size();
     RETURN_IF_ERROR(control.check());
     packing.byPosition = weld(packing.keys, packing.source.triangles);

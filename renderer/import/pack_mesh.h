@@ -43,6 +43,10 @@ struct PackCounts {
     bool operator==(const PackCounts&) const = default;
 };
 
+/// InvalidArgument: no triangle is left of so many, since none has any area, if `stepMetres` is not
+/// 0 on a lattice of such steps.
+absl::Status nothingHasArea(std::uint64_t triangles, double stepMetres = 0);
+
 /// Puts a mesh on the lattice that fits it: rounds positions, drops triangles without area and
 /// duplicates (duplicate_faces.h; glass hides no wall), welds vertices that have become equal
 /// (position, normal, colour, material and texture coordinates; if it keeps exact positions, those,

@@ -8,24 +8,27 @@
 namespace eyrie::cli {
 namespace {
 
+using import::MeshImportReport;
+using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// With a level for each pair: of 1,000 vertices those on borders, and those that stay for others'
 /// sake.
-import::MeshImportReport reportOf(const std::vector<std::pair<int, int>>& levels){
-    import::MeshImportReport made;
-for (const auto& [onBorder, staying] : levels) {
-    mesh::LodLevel level;
-    level.nodes = 1;
-    level.points.all = 1000;
-    level.points.onBorder = static_cast<std::uint64_t>(onBorder);
-    level.points.staying = static_cast<std::uint64_t>(staying);
-    made.levels.push_back(level);
+MeshImportReport reportOf(const std::vector<std::pair<int, int>>& levels) {
+    MeshImportReport made;
+    for (const auto& [onBorder, staying] : levels) {
+        mesh::LodLevel level;
+        level.nodes = 1;
+        level.points.all = 1000;
+        level.points.onBorder = static_cast<std::uint64_t>(onBorder);
+        level.points.staying = static_cast<std::uint64_t>(staying);
+        made.levels.push_back(level);
+    }
+    return made;
 }
-return made;
-}  // namespace
 
 TEST(ImportNotes, TellBordersOfNodesFromOpenEdgesLevelByLevel) {
     EXPECT_EQ(keptLine(reportOf({{51, 0}, {124, 6}, {0, 830}})),
@@ -41,8 +44,19 @@ TEST(ImportNotes, WarnOfBordersBeyondFourTenthsAndOfNothingElse) {
                 ElementsAre(HasSubstr("44 % of the vertices of level 2 stay because nodes meet")));
 }
 
+TEST(ImportNotes, TellTheLatticesStepWhereManyTrianglesAreSmaller) {
+    MeshImportReport made;
+    made.triangles = 1000;
+    made.stepMetres = 953.7;
+    made.counts.degenerateTriangles = 10;
+    EXPECT_THAT(notesOf(made), ElementsAre(HasSubstr("10 triangles without area")));
+    made.counts.degenerateTriangles = 11;
+    EXPECT_THAT(notesOf(made),
+                Contains(AllOf(HasSubstr("rounded to 954 m"), HasSubstr("far from all others"))));
+}
+
 TEST(ImportNotes, AreInTheJsonOfAnImport) {
-    import::MeshImportReport made;
+    MeshImportReport made;
     made.notes = {"1 of 1 textures cannot be read"};
     testing::internal::CaptureStdout();
     printJson({}, made, {});
@@ -50,5 +64,5 @@ TEST(ImportNotes, AreInTheJsonOfAnImport) {
                 HasSubstr(R"("notes": ["1 of 1 textures cannot be read"])"));
 }
 
-}  // namespace eyrie::cli
+}  // namespace
 }  // namespace eyrie::cli

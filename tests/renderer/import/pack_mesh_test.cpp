@@ -128,6 +128,19 @@ TEST(PackMesh, RefusesMeshesWithoutAreaSayingSo) {
     }
 }
 
+TEST(PackMesh, SaysWhatCornersAreRoundedToWhereAllAreaIsLostByIt) {
+    TriangleMesh two;
+    for (const double x : {0.0, 1e9})
+        for (const auto& [dx, dy] : {std::pair(0, 0), {1, 0}, {0, 1}})
+            two.positions.emplace_back(x + dx, dy, 0);
+    two.triangles = {{0, 1, 2}, {3, 4, 5}};
+    PackCounts counts;
+    EXPECT_THAT(packMesh(two, counts).status().message(),
+                testing::AllOf(testing::HasSubstr("found 2 triangles, none with any area where "
+                                                  "corners are rounded to"),
+                               testing::HasSubstr("far from all others")));
+}
+
 TEST(PackMesh, WeighsNormalsByAngleNotByTheCut) {
     // A cube's corner: one face is cut through the corner, the others are not.
     TriangleMesh cube;
