@@ -254,7 +254,7 @@ RestDoor::Made RestDoor::make(const RestRequest& request, const FoundRoute& foun
     absl::Status status = read(request, found, *asked);
     if (status.ok())
         status = handlers_.handle(found.route->call->name(), *asked, *made,
-                                  {request.stop, asText, &room});
+                                  {request.stop, request.role, asText, &room});
     if (!status.ok())
         return {status, problem(status, httpStatusOf(status.code()), asked->GetDescriptor())};
     RestAnswer answer = asText ? jsonAnswer(*made, rest, room) : bytesOf(made, rest.bytes(), room);
@@ -299,6 +299,7 @@ RestDoor::Made RestDoor::there(const RestRequest& change) const {
     request.method = "GET";
     request.target = pathOf(change);
     request.stop = change.stop;
+    request.role = change.role;
     const FoundRoute found =
         findRoute(request.method, std::string_view(request.target).substr(kPrefix.size()));
     return found.route == nullptr ? Made{absl::NotFoundError(""), {}} : make(request, found);
