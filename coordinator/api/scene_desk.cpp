@@ -168,8 +168,9 @@ absl::Status SceneDesk::checkReach(const std::vector<NamedFile>& files, const fa
         const absl::StatusOr<fabric::Box> bounds = wire::fromMessage(set.bounds());
         const fabric::SceneObject& object = scene.objects[static_cast<std::size_t>(file.object)];
         if (bounds.ok())  // else it has none
-            RETURN_IF_ERROR(
-                fabric::checkReach(object, fabric::transformed(*bounds, object.worldFromObject)));
+            RETURN_IF_ERROR(atObject(
+                file.object,
+                fabric::checkReach(object, fabric::transformed(*bounds, object.worldFromObject))));
     }
     return absl::OkStatus();
 }
