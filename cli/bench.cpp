@@ -187,17 +187,22 @@ absl::Status runBench(const Options& options) {
         tell(fmt::format("{}: {}", options.flight, runs.front().flightNote));
     if (!options.pictures.quiet && !runs.front().sizeNote.empty())
         tell(fmt::format("{}: {}", options.scene, runs.front().sizeNote));
-    std::vector<bench::UniformLevel> uniform;
-    if (reference) {
-        ASSIGN_OR_RETURN(uniform, bench::measureRuns(*reference, plan, runs, stop.token()));
-    }
+    using Levels = std::vector<bench::UniformLevel>;
+    absl::StatusOr<Levels> uniform = Levels();
+    if (reference)
+        uniform = bench::measureRuns(*reference, plan, runs, stop.token());
+    if (absl::IsCancelled(uniform.status()))
+        return uniform.status();
+    if (!uniform.ok())  // how fast they were is known, after minutes maybe
+        for (bench::BenchRun& run : runs) run.measured.reset();
     const bench::BenchFacts facts = factsOf(options, plan, runs);
-    const bench::Report report{facts, std::move(runs), std::move(uniform)};
+    const bench::Report report{facts, std::move(runs), uniform.value_or(Levels())};
     RETURN_IF_ERROR(bench::writeReport(report, options.out));
     if (options.json)
         fmt::print("{}", bench::summaryJson(report));
     else if (!options.pictures.quiet)
         fmt::print("{}{}\n", bench::table(report.runs), options.out + "/index.html shows it");
+    RETURN_IF_ERROR(uniform.status());
     return bench::checkPromises(report.runs);
 }
 
@@ -309,7 +314,9 @@ void addBench(CLI::App& app, Run& run) {
         "it\n"
         "promises, or has holes, is an error: exit status 1, after the report is written. Holes\n"
         "between channels of several renderers are told, but are no error where not all data were\n"
-        "loaded or memory was short.\n\n"
+        "loaded or memory was short. Where errors cannot be measured after all, as where memory "
+        "does\n"
+        "not hold the source, the report has the rest; the exit status is then 1 or 2, too.\n\n"
         "Examples:\n"
         "  eyrie bench dem.eyt --flight walkthrough -o report\n"
         "  eyrie bench scan.eym --tau 1,4 --reference -o report\n"

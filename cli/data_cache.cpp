@@ -65,7 +65,7 @@ absl::StatusOr<std::string> importName(const std::vector<std::string>& sources,
 
 /// Only .eyt and .eym are read from where they lie.
 absl::Status isHere(const std::string& source) {
-    if (!page::isRemote(source))
+    if (!page::isVirtual(source))
         return absl::OkStatus();
     return absl::InvalidArgumentError(fmt::format(
         "{}: only .eyt and .eym files are drawn from a URL; download this one, or `eyrie "
@@ -124,7 +124,7 @@ absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::
                     "elevation model instead, or run `eyrie import terrain` with --imagery",
                     path, fmt::join(imagery, ", ")));
             // Said here, at once: a renderer would only find out when it opens the scene.
-            if (page::isRemote(path)) {
+            if (page::isVirtual(path)) {
                 RETURN_IF_ERROR(reach(path, kind));
                 return path;
             }

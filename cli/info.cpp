@@ -128,7 +128,7 @@ absl::StatusOr<Facts> dataFacts(const std::string& path, const page::SourceOptio
             break;
     }
     RETURN_IF_ERROR(page::checkScheme(path));
-    if (!page::isRemote(path) && !std::filesystem::exists(path))
+    if (!page::isVirtual(path) && !std::filesystem::exists(path))
         return absl::NotFoundError(fmt::format("{}: no such file", path));
     return absl::InvalidArgumentError(fmt::format(
         "{}: this is no .eyt, .eym or .json file; make one of it with `eyrie import`", path));

@@ -115,9 +115,9 @@ void startLog(const LogOptions& options) {
                                             : spdlog::level::from_str(options.level));
 }
 
-void quietLog() {
+void quietLog(const std::string& level) {
     if (current.level.empty())
-        spdlog::set_level(spdlog::level::warn);
+        spdlog::set_level(spdlog::level::from_str(level));
 }
 
 std::vector<std::string> logArguments() {

@@ -19,8 +19,8 @@ struct LogOptions {
 /// `time` (UTC, RFC 3339), `level`, `command`, `process`, `thread` and `message`.
 void startLog(const LogOptions& options = {});
 
-/// Only warnings and errors, unless a level was asked for.
-void quietLog();
+/// Only warnings and errors, or what `level` says, unless a level was asked for.
+void quietLog(const std::string& level = "warn");
 
 /// The options by which a child process logs in the same way.
 std::vector<std::string> logArguments();

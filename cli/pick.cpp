@@ -11,6 +11,7 @@
 #include "cli/config_options.h"
 #include "cli/json_object.h"
 #include "cli/load_scene.h"
+#include "cli/log.h"
 #include "cli/pick_text.h"
 #include "cli/picture_source.h"
 #include "cli/stop_signal.h"
@@ -92,6 +93,8 @@ JsonObject toJson(const fabric::PickedPoint& point, const std::string& object) {
 
 absl::Status pick(const Options& options) {
     const StopSignal stop;
+    if (options.source.quiet)
+        quietLog("error");
     ASSIGN_OR_RETURN(const fabric::PickRequest request, requestOf(options));
     ASSIGN_OR_RETURN(const fabric::SeenAreas areas, areasOf(options, request));
     ASSIGN_OR_RETURN(const std::optional<fabric::PickRequest> seen, fabric::pickIn(areas, request));

@@ -99,7 +99,7 @@ absl::Status placeMeshes(fabric::Scene& scene, std::size_t firstLoose,
 /// What a scene file in `folder` calls `name`, as it is called everywhere.
 absl::Status place(std::string& name, const fs::path& folder) {
     RETURN_IF_ERROR(page::checkScheme(name));
-    if (!page::isRemote(name))
+    if (!page::isVirtual(name))
         name = (folder / name).lexically_normal().string();
     return absl::OkStatus();
 }
@@ -148,7 +148,7 @@ absl::StatusOr<fabric::Scene> assembleScene(std::span<const std::string> paths, 
     for (fabric::SceneObject& object : scene->objects) {
         ASSIGN_OR_RETURN(const std::string data,
                          cache.dataFor(object.path, object.kind, object.imagery));
-        object.path = page::isRemote(data) ? data : fs::absolute(data).string();
+        object.path = page::isVirtual(data) ? data : fs::absolute(data).string();
         object.imagery.clear();
     }
     for (std::string& note : cache.takeNotes()) notes.push_back(std::move(note));

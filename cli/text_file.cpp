@@ -23,7 +23,7 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 }  // namespace
 
 absl::StatusOr<std::string> readText(const std::string& path) {
-    if (page::isRemote(path))
+    if (!page::isPlainPath(path))
         return absl::InvalidArgumentError(fmt::format(
             "{}: a scene or camera file has to be on this machine; only the data that a scene "
             "names may lie at URLs",

@@ -21,8 +21,11 @@ constexpr std::string_view kReadAs = "/vsicurl/https://data.example/dem";
 void checkData(const std::string& path) {
     static const page::AllowedUrls allowed({std::string(kAllowed)});
     static const page::AllowedUrls none;
-    if (!page::isRemote(path))
+    if (!page::isRemote(path)) {
+        if (page::isVirtual(path) && path.find("vsi", 4) != std::string::npos)
+            std::abort();  // of this machine is one archive alone
         return;
+    }
     if (none.check(path).ok())
         std::abort();
     const std::string name = page::gdalName(path);

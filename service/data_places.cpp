@@ -23,7 +23,7 @@ bool isIn(std::string_view path, std::string_view folder) {
 
 /// Of a file of another machine: the longest end of its path that lies in `folder`.
 std::optional<std::string> foundIn(const std::filesystem::path& folder, std::string_view path) {
-    if (folder.empty() || page::isRemote(path))
+    if (folder.empty() || page::isVirtual(path))
         return std::nullopt;
     const std::string normal = std::filesystem::path(path).lexically_normal().string();
     for (std::size_t slash = normal.find('/'); slash != std::string::npos;

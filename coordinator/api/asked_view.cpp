@@ -3,7 +3,6 @@
 
 #include "coordinator/stream/home_camera.h"
 #include "eyrie/v1/camera.pb.h"
-#include "fabric/status.h"
 #include "wire/camera.h"
 
 namespace eyrie::api {
@@ -11,12 +10,8 @@ namespace eyrie::api {
 absl::StatusOr<fabric::Camera> cameraOf(const v1::Camera& message,
                                         const coordinator::FrameSource& frames,
                                         double exaggeration) {
-    if (message.ByteSizeLong() > 0) {
-        auto camera = wire::fromMessage(message);
-        if (!camera.ok())
-            return fabric::withContext(camera.status(), "camera");
-        return camera;
-    }
+    if (message.ByteSizeLong() > 0)
+        return wire::fromMessage(message);
     const coordinator::Status status = frames.status();
     if (status.sceneInfo.bounds.isEmpty())
         return absl::UnavailableError(status.problem.empty() ? "no scene is open yet"

@@ -20,7 +20,7 @@ public:
         : limit_(context, patience) {}
 
     /// What its handler is given beside the request.
-    Call call() { return {stop_.get_token(), false, &room_}; }
+    Call call(access::Role role) { return {stop_.get_token(), role, false, &room_}; }
 
     /// `answer` is empty where `status` is an error.
     void finish(const absl::Status& status, const google::protobuf::Message& answer) {
@@ -74,8 +74,9 @@ grpc::ServerUnaryReactor* CoordinatorService::call(const char* name,
         reactor->finish(status, answer);
         return reactor;
     }
+    const access::Role role = wire::roleOf(security_, context);
     const bool isTaken = workers_.post([=, handlers = handlers_.load(), &request, &answer] {
-        const absl::Status status = handlers->handle(name, request, answer, reactor->call());
+        const absl::Status status = handlers->handle(name, request, answer, reactor->call(role));
         handlers->note(name, status);
         reactor->finish(status, answer);
     });

@@ -14,6 +14,7 @@
 #include <google/protobuf/message.h>
 
 #include "access/rare_warnings.h"
+#include "access/tokens.h"
 #include "coordinator/api/message_stream.h"
 #include "coordinator/api/quotas.h"
 
@@ -21,7 +22,8 @@ namespace eyrie::api {
 
 /// What a call comes with beside its message.
 struct Call {
-    std::stop_token stop = {};  ///< the caller has gone
+    std::stop_token stop = {};               ///< the caller has gone
+    access::Role role = access::Role::View;  ///< of who calls
     bool asText = false;  ///< the answer's bytes become text, which takes several times as much
     /// Where a handler leaves what its answer takes up of what there is for all, to be given back
     /// when the answer has been sent. Null: it ends with the call.

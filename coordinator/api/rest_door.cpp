@@ -62,16 +62,34 @@ std::string pathOf(const RestRequest& request) {
     return request.target.substr(0, request.target.find('?'));
 }
 
+/// "application/json" of " Application/JSON ; charset=utf-8".
+std::string plainType(std::string_view text) {
+    std::string type = absl::AsciiStrToLower(std::string(text.substr(0, text.find(';'))));
+    type.erase(type.find_last_not_of(" \t") + 1);
+    type.erase(0, type.find_first_not_of(" \t"));
+    return type;
+}
+
+/// Of a media range in Accept: `;q=0.0`.
+bool isRefused(std::string_view range) {
+    const std::size_t weight = range.rfind("q=");
+    return weight != std::string_view::npos &&
+           range.find_first_not_of("0. \t", weight + 2) == std::string_view::npos;
+}
+
 bool wantsJson(std::string_view accept) {
-    return accept.find("application/json") != std::string_view::npos;
+    while (!accept.empty()) {
+        const std::string_view range = accept.substr(0, accept.find(','));
+        if (plainType(range) == "application/json" && !isRefused(range))
+            return true;
+        accept.remove_prefix(std::min(range.size() + 1, accept.size()));
+    }
+    return false;
 }
 
 /// Pages of other sites can send a browser's forms here, but no JSON.
 absl::Status checkContentType(const RestRequest& request) {
-    std::string type =
-        absl::AsciiStrToLower(request.contentType.substr(0, request.contentType.find(';')));
-    type.erase(type.find_last_not_of(" \t") + 1);
-    if (request.body.empty() || type == "application/json")
+    if (request.body.empty() || plainType(request.contentType) == "application/json")
         return absl::OkStatus();
     return absl::InvalidArgumentError(
         fmt::format("the body's Content-Type is '{}'; it must be application/json",
@@ -254,7 +272,7 @@ RestDoor::Made RestDoor::make(const RestRequest& request, const FoundRoute& foun
     absl::Status status = read(request, found, *asked);
     if (status.ok())
         status = handlers_.handle(found.route->call->name(), *asked, *made,
-                                  {request.stop, asText, &room});
+                                  {request.stop, request.role, asText, &room});
     if (!status.ok())
         return {status, problem(status, httpStatusOf(status.code()), asked->GetDescriptor())};
     RestAnswer answer = asText ? jsonAnswer(*made, rest, room) : bytesOf(made, rest.bytes(), room);
@@ -299,6 +317,7 @@ RestDoor::Made RestDoor::there(const RestRequest& change) const {
     request.method = "GET";
     request.target = pathOf(change);
     request.stop = change.stop;
+    request.role = change.role;
     const FoundRoute found =
         findRoute(request.method, std::string_view(request.target).substr(kPrefix.size()));
     return found.route == nullptr ? Made{absl::NotFoundError(""), {}} : make(request, found);

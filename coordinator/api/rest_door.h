@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "access/tokens.h"
+
 namespace google::protobuf {
 class Message;
 }
@@ -29,8 +31,9 @@ struct RestRequest {
     std::string accept = {};
     std::string ifNoneMatch = {};
     std::string ifMatch = {};
-    std::string idempotencyKey = {};  ///< the same as the request's field request_id
-    std::stop_token stop = {};        ///< the client has gone
+    std::string idempotencyKey = {};         ///< the same as the request's field request_id
+    std::stop_token stop = {};               ///< the client has gone
+    access::Role role = access::Role::View;  ///< of who asks
 };
 
 struct RestAnswer {

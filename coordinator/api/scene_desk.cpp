@@ -17,6 +17,7 @@
 #include "eyrie/v1/kept_state.pb.h"
 #include "fabric/log.h"
 #include "fabric/scene_reach.h"
+#include "fabric/shown_name.h"
 #include "fabric/status.h"
 #include "wire/scene.h"
 #include "wire/scene_info.h"
@@ -28,6 +29,10 @@ using fabric::ObjectKind;
 
 absl::Status atObject(int index, const absl::Status& status) {
     return fabric::withContext(status, fmt::format("scene.objects[{}]", index));
+}
+
+std::string& pathIn(v1::SceneObject& object) {
+    return object.has_terrain() ? *object.mutable_terrain() : *object.mutable_mesh();
 }
 
 v1::KeptScene keptScene(const fabric::Scene& commandLine, v1::Scene scene) {
@@ -79,11 +84,19 @@ absl::Status SceneDesk::showKept(const fabric::Scene& commandLine) const {
 
 v1::Scene SceneDesk::scene() const { return named(frames_.status().scene); }
 
+v1::Scene SceneDesk::sceneForAnybody() const {
+    v1::Scene message = scene();
+    for (v1::SceneObject& object : *message.mutable_objects()) {
+        std::string& path = pathIn(object);
+        path = fabric::shownName(path);
+    }
+    return message;
+}
+
 v1::Scene SceneDesk::named(const fabric::Scene& scene) const {
     v1::Scene message = wire::toMessage(scene);
     for (v1::SceneObject& object : *message.mutable_objects()) {
-        std::string& path =
-            object.has_terrain() ? *object.mutable_terrain() : *object.mutable_mesh();
+        std::string& path = pathIn(object);
         if (!folder_)
             continue;
         const std::filesystem::path name =
@@ -155,8 +168,9 @@ absl::Status SceneDesk::checkReach(const std::vector<NamedFile>& files, const fa
         const absl::StatusOr<fabric::Box> bounds = wire::fromMessage(set.bounds());
         const fabric::SceneObject& object = scene.objects[static_cast<std::size_t>(file.object)];
         if (bounds.ok())  // else it has none
-            RETURN_IF_ERROR(
-                fabric::checkReach(object, fabric::transformed(*bounds, object.worldFromObject)));
+            RETURN_IF_ERROR(atObject(
+                file.object,
+                fabric::checkReach(object, fabric::transformed(*bounds, object.worldFromObject))));
     }
     return absl::OkStatus();
 }
@@ -181,10 +195,9 @@ absl::StatusOr<fabric::Scene> SceneDesk::resolved(v1::Scene message,
         if (object.data_case() == v1::SceneObject::DATA_NOT_SET)
             return atObject(
                 i, absl::InvalidArgumentError("there is neither terrain nor mesh; name a file"));
-        std::string& name =
-            object.has_terrain() ? *object.mutable_terrain() : *object.mutable_mesh();
+        std::string& name = pathIn(object);
         if (object.name().empty())
-            object.set_name(std::filesystem::path(name).filename().string());
+            object.set_name(std::filesystem::path(fabric::shownName(name)).filename().string());
         absl::StatusOr<std::string> path =
             pathOf(name, object.has_terrain() ? ObjectKind::Terrain : ObjectKind::Mesh);
         if (!path.ok())

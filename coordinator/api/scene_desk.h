@@ -37,6 +37,10 @@ public:
 
     v1::Scene scene() const;
 
+    /// The same, but data have the names that anybody may see (fabric::shownName), by which not all
+    /// can be shown again.
+    v1::Scene sceneForAnybody() const;
+
     /// Errors: those of resolved().
     absl::Status show(v1::Scene scene, const std::stop_token& stop);
 

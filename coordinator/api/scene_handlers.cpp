@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "coordinator/api/call_roles.h"
 #include "coordinator/api/handler_list.h"
 #include "coordinator/api/handlers.h"
 #include "coordinator/api/scene_desk.h"
@@ -10,9 +11,11 @@ namespace eyrie::api {
 void addSceneHandlers(Handlers& handlers, SceneDesk& scenes) {
     handlers.add<v1::GetSceneRequest, v1::GetSceneResponse>(
         "GetScene",
-        [&scenes](const v1::GetSceneRequest&, const Call&) -> absl::StatusOr<v1::GetSceneResponse> {
+        [&scenes](const v1::GetSceneRequest&,
+                  const Call& call) -> absl::StatusOr<v1::GetSceneResponse> {
             v1::GetSceneResponse response;
-            *response.mutable_scene() = scenes.scene();
+            const bool mayShowAgain = call.role >= roleFor("SetScene");
+            *response.mutable_scene() = mayShowAgain ? scenes.scene() : scenes.sceneForAnybody();
             return response;
         });
     handlers.add<v1::SetSceneRequest, v1::SetSceneResponse>(

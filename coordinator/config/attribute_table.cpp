@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "coordinator/config/eqc_writer.h"
+#include "fabric/near_name.h"
 
 namespace eyrie::config {
 namespace {
@@ -167,15 +168,19 @@ bool isMisspelt(std::string_view written, std::string_view name) {
 const Known* knownOf(const Statement& statement, ValueReader& reader, std::string_view kind,
                      const std::function<std::string(const Known&)>& nameOf) {
     std::string meant;
+    std::vector<std::string> names;
     for (const Known& each : kKnown) {
         const std::string name = nameOf(each);
         if (name.empty())
             continue;
+        names.push_back(name);
         if (name == statement.keyword)
             return &each;
         if (isMisspelt(statement.keyword, name))
             meant = fmt::format("; '{}' is one", name);
     }
+    if (meant.empty())
+        meant = fabric::didYouMean(statement.keyword, names);
     reader.findings().warning(statement.place, fmt::format("'{}' is no {} and is left out{}",
                                                            statement.keyword, kind, meant));
     return nullptr;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "coordinator/config/equalizer_limits.h"
@@ -189,6 +191,11 @@ std::optional<Equalizer> readLoadBalancer(const Statement& block, ValueReader& r
                   framerateEntry(reader, equalizer)});
     if (reader.findings().errors() > errors)
         return std::nullopt;
+    // Equalizer itself balances nothing then.
+    if (std::ranges::find(block.statements, "mode", &Statement::keyword) == block.statements.end())
+        reader.findings().warning(
+            block.place,
+            "a loadBalancer without `mode` is taken for one of mode 2D; say which it is");
     return ofItsKind(equalizer);
 }
 

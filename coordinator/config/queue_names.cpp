@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/config/queue_names.h"
 
+#include <algorithm>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,6 +19,29 @@ Names namesOf(std::span<const ResolvedCompound> tree, std::vector<Tiles> Compoun
     for (const ResolvedCompound& each : tree)
         for (const Tiles& queue : each.compound->*tiles) names.insert(queue.name);
     return names;
+}
+
+/// Whether who takes tiles of their name takes the first one's.
+bool areForTheSame(const ResolvedCompound& first, const ResolvedCompound& second) {
+    return first.destination == second.destination && first.regriddings == second.regriddings &&
+           first.subpixel == second.subpixel && meet(first, second);
+}
+
+/// As Equalizer, which leaves out the second, too.
+void warnOfSecondQueues(std::span<const ResolvedCompound> tree, Findings& findings) {
+    std::unordered_map<std::string_view, std::vector<const ResolvedCompound*>> makers;
+    for (const ResolvedCompound& each : tree)
+        for (const Tiles& tiles : each.compound->outputTiles) {
+            std::vector<const ResolvedCompound*>& others = makers[tiles.name];
+            const bool isTaken = std::ranges::any_of(
+                others, [&](const ResolvedCompound* other) { return areForTheSame(*other, each); });
+            if (isTaken)
+                findings.warning(tiles.place, fmt::format("other outputtiles are named \"{}\" "
+                                                          "already; these have no effect",
+                                                          tiles.name));
+            else
+                others.push_back(&each);
+        }
 }
 
 }  // namespace
@@ -35,6 +61,7 @@ void warnOfQueueNames(std::span<const ResolvedCompound> tree, Findings& findings
                 findings.warning(queue.place,
                                  fmt::format("nobody takes the outputtiles \"{}\"", queue.name));
     }
+    warnOfSecondQueues(tree, findings);
 }
 
 }  // namespace eyrie::config

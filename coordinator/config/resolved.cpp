@@ -445,13 +445,7 @@ private:
             others.push_back(inOrder_.emplace_back(Output{&compound, &frame}));
     }
 
-    /// Whether two are drawn for one eye in one frame.
-    static bool meet(const ResolvedCompound& a, const ResolvedCompound& b) {
-        const std::int64_t common = std::gcd(a.period, b.period);
-        return a.phase % common == b.phase % common && !both(a.eyes, b.eyes).isEmpty();
-    }
-
-    /// The same; of compounds that the view has no eyes for in its mode, in another mode.
+    /// Whether they meet; of compounds that the view has no eyes for in its mode, in another mode.
     static bool mayMeet(const ResolvedCompound& a, const ResolvedCompound& b) {
         return meet(a, b) || a.eyes.isEmpty() || b.eyes.isEmpty();
     }
@@ -485,6 +479,11 @@ private:
 };
 
 }  // namespace
+
+bool meet(const ResolvedCompound& a, const ResolvedCompound& b) {
+    const std::int64_t common = std::gcd(a.period, b.period);
+    return a.phase % common == b.phase % common && !both(a.eyes, b.eyes).isEmpty();
+}
 
 ResolvedConfiguration resolve(const Configuration& configuration, Findings& findings) {
     return resolve(configuration, Display{}, findings);

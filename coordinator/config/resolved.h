@@ -90,6 +90,9 @@ struct ResolvedCompound {
     Place place() const { return compound != nullptr ? compound->place : Place{}; }
 };
 
+/// Whether two are drawn for one eye in one frame.
+bool meet(const ResolvedCompound& a, const ResolvedCompound& b);
+
 /// Refers to its configuration.
 struct ResolvedConfiguration {
     std::vector<Destination> destinations;

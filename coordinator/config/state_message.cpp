@@ -232,9 +232,12 @@ absl::Status change(const v1::EqualizerTuning& message, const Configuration& con
                     ConfigurationState& state) {
     if (message.equalizer() < 0)
         return absl::NotFoundError(fmt::format("there is no equalizer {}", message.equalizer()));
-    ASSIGN_OR_RETURN(const EqualizerTuning tuning, fromMessage(message));
+    const absl::StatusOr<EqualizerTuning> tuning = fromMessage(message);
+    if (!tuning.ok())
+        return fabric::withContext(tuning.status(),
+                                   fmt::format("equalizer {}", message.equalizer()));
     return tuneEqualizer(configuration, state, static_cast<std::size_t>(message.equalizer()),
-                         tuning);
+                         *tuning);
 }
 
 absl::Status change(const v1::Head& message, const Configuration& configuration,

@@ -66,7 +66,8 @@ absl::Status strangersPage(std::string_view origin, std::string_view host) {
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
-api::RestRequest restRequest(const Request& request, std::stop_token gone) {
+api::RestRequest restRequest(const Request& request, const std::stop_source& gone,
+                             access::Role role) {
     namespace http = beast::http;
     const auto header = [&](auto name) { return std::string(view(request[name])); };
     return {std::string(view(request.method_string())),
@@ -77,7 +78,8 @@ api::RestRequest restRequest(const Request& request, std::stop_token gone) {
             header(http::field::if_none_match),
             header(http::field::if_match),
             header("Idempotency-Key"),
-            std::move(gone)};
+            gone.get_token(),
+            role};
 }
 
 /// Sees that a request says once which host it is for, and where its target does so, too, that this
@@ -264,7 +266,7 @@ private:
                                                       context_.options.gate.get(), context_.frames))
             return reply(*observed, request.keep_alive());
         if (isApiCall(pathOf(view(request.target()))) && context_.options.api != nullptr)
-            return call(request);
+            return call(request, context_.access.roleOf(asked));
         reply(route(view(request.method_string()), view(request.target()), context_.files,
                     context_.frames),
               request.keep_alive());
@@ -337,7 +339,7 @@ private:
     }
 
     /// On a thread of its own; what ends the connection ends the call.
-    void call(const Request& request) {
+    void call(const Request& request, access::Role role) {
         namespace http = beast::http;
         if (!isAllowedOrigin(view(request[http::field::origin]), view(request[http::field::host]),
                              context_.localNamesOnly))
@@ -349,7 +351,7 @@ private:
         isCalling_ = true;
         watch();
         const bool isTaken = context_.callers.post([self = shared_from_this(),
-                                                    asked = restRequest(request, gone_.get_token()),
+                                                    asked = restRequest(request, gone_, role),
                                                     keepAlive = request.keep_alive()]() mutable {
             api::RestAnswer answer = self->context_.options.api->answer(asked);
             const auto executor = self->stream_.get_executor();

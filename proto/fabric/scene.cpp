@@ -2,6 +2,8 @@
 #include "fabric/scene.h"
 
 #include <cmath>
+#include <cstddef>
+#include <string>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -12,39 +14,45 @@
 namespace eyrie::fabric {
 namespace {
 
-absl::Status validateTransform(const SceneObject& object) {
+/// "scene.objects[2] 'barn'".
+std::string nameOf(const SceneObject& object, std::size_t index) {
+    return fmt::format("scene.objects[{}] '{}'", index, object.name);
+}
+
+absl::Status validateTransform(const SceneObject& object, std::size_t index) {
     const Mat4& m = object.worldFromObject;
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
             if (!(std::abs(m[column][row]) <= kMaxSceneMetres))
                 return absl::InvalidArgumentError(fmt::format(
-                    "object '{}': transform element [{}][{}] is {:.3g}; it must be from {:g} to "
-                    "{:g}",
-                    object.name, row, column, m[column][row], -kMaxSceneMetres, kMaxSceneMetres));
+                    "{}: transform element [{}][{}] is {:.3g}; it must be from {:g} to {:g}",
+                    nameOf(object, index), row, column, m[column][row], -kMaxSceneMetres,
+                    kMaxSceneMetres));
     if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1)
-        return absl::InvalidArgumentError(fmt::format(
-            "object '{}': the transform's last row must be 0 0 0 1 (an affine transform)",
-            object.name));
+        return absl::InvalidArgumentError(
+            fmt::format("{}: the transform's last row must be 0 0 0 1 (an affine transform)",
+                        nameOf(object, index)));
     if (std::abs(glm::determinant(Mat3(m))) == 0)
         return absl::InvalidArgumentError(fmt::format(
-            "object '{}': the transform is singular (it flattens the object)", object.name));
+            "{}: the transform is singular (it flattens the object)", nameOf(object, index)));
     return absl::OkStatus();
 }
 
-absl::Status validateCone(const LightCone& cone) {
+/// `field` is the cone's.
+absl::Status validateCone(const LightCone& cone, const std::string& field) {
     const double length = glm::length(cone.axis);
     if (!(length > 0 && std::isfinite(length)))
         return absl::InvalidArgumentError(
-            "scene.pointLights.cone.axis must be three finite numbers, not all 0");
+            fmt::format("{}.axis must be three finite numbers, not all 0", field));
     if (!(cone.outerDegrees > 0 && cone.outerDegrees <= 90))
-        return absl::InvalidArgumentError(
-            fmt::format("scene.pointLights.cone.outerDegrees is {}; it must be more than 0 and at "
-                        "most 90, which lights half of the space; leave the cone out for all of it",
-                        cone.outerDegrees));
-    if (!(cone.innerDegrees >= 0 && cone.innerDegrees <= cone.outerDegrees))
         return absl::InvalidArgumentError(fmt::format(
-            "scene.pointLights.cone.innerDegrees is {}; it must be from 0 to outerDegrees, {}",
-            cone.innerDegrees, cone.outerDegrees));
+            "{}.outerDegrees is {}; it must be more than 0 and at most 90, which lights "
+            "half of the space; leave the cone out for all of it",
+            field, cone.outerDegrees));
+    if (!(cone.innerDegrees >= 0 && cone.innerDegrees <= cone.outerDegrees))
+        return absl::InvalidArgumentError(
+            fmt::format("{}.innerDegrees is {}; it must be from 0 to outerDegrees, {}", field,
+                        cone.innerDegrees, cone.outerDegrees));
     return absl::OkStatus();
 }
 
@@ -53,23 +61,25 @@ absl::Status validateLights(const Scene& scene) {
     if (count > kMaxLights)
         return absl::InvalidArgumentError(
             fmt::format("the scene has {} lights; at most {} are drawn", count, kMaxLights));
-    for (const DirectionalLight& light : scene.lights) {
-        const double length = glm::length(light.direction);
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const double length = glm::length(scene.lights[i].direction);
         if (!(length > 0 && std::isfinite(length)))
-            return absl::InvalidArgumentError(
-                "scene.lights.direction must be three finite numbers, not all 0");
-    }
-    for (const PointLight& light : scene.pointLights) {
-        if (!(glm::length(light.positionMetres) <= kMaxCoordinateMetres))
             return absl::InvalidArgumentError(fmt::format(
-                "scene.pointLights.position must be three finite numbers, at most {} metres away",
-                kMaxCoordinateMetres));
+                "scene.lights[{}].direction must be three finite numbers, not all 0", i));
+    }
+    for (std::size_t i = 0; i < scene.pointLights.size(); ++i) {
+        const PointLight& light = scene.pointLights[i];
+        const std::string field = fmt::format("scene.pointLights[{}]", i);
+        if (!(glm::length(light.positionMetres) <= kMaxCoordinateMetres))
+            return absl::InvalidArgumentError(
+                fmt::format("{}.position must be three finite numbers, at most {} metres away",
+                            field, kMaxCoordinateMetres));
         if (!(light.reachMetres >= kLeastReachMetres && light.reachMetres <= kMostReachMetres))
             return absl::InvalidArgumentError(
-                fmt::format("scene.pointLights.reach is {}; it must be from {} to {} metres",
+                fmt::format("{}.reach is {}; it must be from {} to {} metres", field,
                             light.reachMetres, kLeastReachMetres, kMostReachMetres));
         if (light.cone)
-            if (absl::Status status = validateCone(*light.cone); !status.ok())
+            if (absl::Status status = validateCone(*light.cone, field + ".cone"); !status.ok())
                 return status;
     }
     return absl::OkStatus();
@@ -83,11 +93,12 @@ absl::Status validate(const Scene& scene) {
     if (!(scene.ambient >= 0 && scene.ambient <= 1))
         return absl::InvalidArgumentError(
             fmt::format("scene.ambient is {}; it must be from 0 to 1", scene.ambient));
-    for (const SceneObject& object : scene.objects) {
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const SceneObject& object = scene.objects[i];
         if (object.name.empty() || object.path.empty())
-            return absl::InvalidArgumentError(fmt::format("an object of the scene lacks its {}",
+            return absl::InvalidArgumentError(fmt::format("{} lacks its {}", nameOf(object, i),
                                                           object.name.empty() ? "name" : "path"));
-        if (absl::Status status = validateTransform(object); !status.ok())
+        if (absl::Status status = validateTransform(object, i); !status.ok())
             return status;
     }
     return absl::OkStatus();

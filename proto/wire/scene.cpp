@@ -11,6 +11,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "eyrie/v1/scene.pb.h"
+#include "fabric/shown_name.h"
 #include "fabric/status.h"
 #include "wire/numbers.h"
 
@@ -75,8 +76,9 @@ absl::StatusOr<fabric::SceneObject> objectFrom(const v1::SceneObject& message, i
         return absl::InvalidArgumentError(
             fmt::format("{}{} has no data; give it a \"terrain\" or a \"mesh\" file", field,
                         message.name().empty() ? "" : " '" + message.name() + "'"));
-    object.name = message.name().empty() ? std::filesystem::path(object.path).filename().string()
-                                         : message.name();
+    object.name = message.name().empty()
+                      ? std::filesystem::path(fabric::shownName(object.path)).filename().string()
+                      : message.name();
     if (object.name.empty())
         return absl::InvalidArgumentError(
             fmt::format("{}: the path {} ends in a folder, not a file", field, object.path));

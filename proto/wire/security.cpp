@@ -26,6 +26,19 @@ constexpr char kAuthorization[] = "authorization";
 
 bool isUnix(std::string_view address) { return address.starts_with("unix:"); }
 
+bool isForAnybody(const Security& security, std::string_view peer) {
+    return security.gate == nullptr || isUnix(peer);
+}
+
+access::Credentials credentialsOf(const grpc::CallbackServerContext& context) {
+    const auto found = context.client_metadata().find(kAuthorization);
+    const std::string_view authorization =
+        found == context.client_metadata().end()
+            ? std::string_view()
+            : std::string_view(found->second.data(), found->second.size());
+    return {authorization, {}, access::Door::Grpc};
+}
+
 std::shared_ptr<tls::FileWatcherCertificateProvider> watch(const access::TlsFiles& files) {
     return std::make_shared<tls::FileWatcherCertificateProvider>(files.key, files.certificate,
                                                                  files.authority, kReloadSeconds);
@@ -80,15 +93,15 @@ void present(const Security& security, grpc::ClientContext& context) {
 absl::Status admit(const Security& security, const grpc::CallbackServerContext& context,
                    access::Role needed) {
     const std::string peer = context.peer();
-    if (security.gate == nullptr || isUnix(peer))
+    if (isForAnybody(security, peer))
         return absl::OkStatus();
-    const auto found = context.client_metadata().find(kAuthorization);
-    const std::string_view authorization =
-        found == context.client_metadata().end()
-            ? std::string_view()
-            : std::string_view(found->second.data(), found->second.size());
-    return security.gate->admit({authorization, {}, access::Door::Grpc}, peerAddress(peer), needed)
-        .status();
+    return security.gate->admit(credentialsOf(context), peerAddress(peer), needed).status();
+}
+
+access::Role roleOf(const Security& security, const grpc::CallbackServerContext& context) {
+    if (isForAnybody(security, context.peer()))
+        return access::Role::Admin;
+    return security.gate->roleOf(credentialsOf(context)).value_or(access::Role::View);
 }
 
 std::string peerAddress(const std::string& peer) {

@@ -53,6 +53,9 @@ void present(const Security& security, grpc::ClientContext& context);
 absl::Status admit(const Security& security, const grpc::CallbackServerContext& context,
                    access::Role needed = access::Role::Admin);
 
+/// The role of a call that admit() let in.
+access::Role roleOf(const Security& security, const grpc::CallbackServerContext& context);
+
 /// "10.0.0.7" of gRPC's "ipv4:10.0.0.7:41234"; the peer as it is where it has another form.
 std::string peerAddress(const std::string& peer);
 

@@ -23,6 +23,7 @@
 #include "renderer/mesh/eym_writer.h"
 #include "renderer/mesh/kd_tree.h"
 #include "renderer/mesh/output_file.h"
+#include "renderer/page/remote_name.h"
 
 namespace eyrie::import {
 namespace {
@@ -31,10 +32,15 @@ absl::Status checkPaths(const std::vector<std::string>& sourcePaths, const std::
     if (sourcePaths.empty())
         return absl::InvalidArgumentError("no source is named; name a mesh file");
     std::error_code ignored;
-    for (const std::string& sourcePath : sourcePaths)
+    for (const std::string& sourcePath : sourcePaths) {
+        if (!page::isPlainPath(sourcePath))
+            return absl::InvalidArgumentError(fmt::format(
+                "{}: a mesh is read from a file of this machine; download or unpack this one",
+                sourcePath));
         if (std::filesystem::equivalent(sourcePath, outPath, ignored))
             return absl::InvalidArgumentError(
                 fmt::format("{}: is source and output at once; name another output file", outPath));
+    }
     return absl::OkStatus();
 }
 

@@ -95,7 +95,7 @@ absl::StatusOr<std::unique_ptr<PageSource>> PageSource::open(const std::string& 
                                                              std::size_t headBytes,
                                                              const SourceOptions& options) {
     RETURN_IF_ERROR(checkScheme(path));
-    if (isRemote(path))
+    if (isVirtual(path))
         return openRemote(path, headBytes, options);
     ASSIGN_OR_RETURN(std::unique_ptr<ByteSource> file, openLocalFile(path));
     ASSIGN_OR_RETURN(std::vector<std::byte> head, readHead(*file, headBytes));

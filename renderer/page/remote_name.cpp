@@ -55,9 +55,22 @@ bool isUnder(std::string_view url, std::string_view prefix) {
     return url.size() == prefix.size() || prefix.ends_with('/') || url[prefix.size()] == '/';
 }
 
+/// An archive's name that has in it what could lead elsewhere, however GDAL takes that, is none.
+bool isLocalArchive(std::string_view path) {
+    for (const std::string_view archive : {"/vsizip/", "/vsitar/", "/vsigzip/"}) {
+        if (!path.starts_with(archive))
+            continue;
+        const std::string within = absl::AsciiStrToLower(std::string(path.substr(archive.size())));
+        return within.find("vsi") == std::string::npos && within.find("://") == std::string::npos;
+    }
+    return false;
+}
+
 }  // namespace
 
-bool isRemote(std::string_view path) {
+bool isRemote(std::string_view path) { return isVirtual(path) && !isLocalArchive(path); }
+
+bool isVirtual(std::string_view path) {
     if (isHttp(path))
         return true;
     if (!path.starts_with("/vsi"))
@@ -82,6 +95,8 @@ absl::Status checkScheme(const std::string& path) {
         "{}",
         path, scheme, remedy));
 }
+
+bool isPlainPath(const std::string& path) { return !isVirtual(path) && checkScheme(path).ok(); }
 
 std::string gdalName(const std::string& url) {
     const std::string address = plain(url);

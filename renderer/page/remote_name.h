@@ -12,7 +12,16 @@
 /// `http` does not matter. All else is a path of this machine.
 namespace eyrie::page {
 
+/// Of archives (`/vsizip/data/a.zip/x.eyt`, `/vsitar/…`, `/vsigzip/…`) all that may lie elsewhere
+/// does: only those of plain paths of this machine do not.
 bool isRemote(std::string_view path);
+
+/// Whether GDAL alone reads it: it is remote, or in an archive of this machine.
+bool isVirtual(std::string_view path);
+
+/// Whether it is a path of this machine's file system: neither virtual nor what checkScheme()
+/// refuses.
+bool isPlainPath(const std::string& path);
 
 /// InvalidArgument, with the remedy, for addresses of another kind, such as `s3://bucket/x.eyt`:
 /// nobody means a file of this machine by them.

@@ -379,6 +379,16 @@ TEST(Tell, WritesEntriesBelowTheLevelOfRenderersButNotBelowWhatIsAskedFor) {
               "");
 }
 
+TEST(Log, IsAsQuietAsACommandWantsWhereNoLevelWasAskedFor) {
+    startLog();
+    quietLog("error");
+    EXPECT_EQ(spdlog::get_level(), spdlog::level::err);
+    startLog({false, "info", "pick"});
+    quietLog("error");
+    EXPECT_EQ(spdlog::get_level(), spdlog::level::info);
+    startLog();
+}
+
 TEST(Tell, NamesDataAsAnybodyMaySeeThem) {
     const std::string line = "http://joe:sekret@h/a.eyt?sig=sekret: it is gone";
     const auto say = [&] {

@@ -103,6 +103,34 @@ TEST_F(Rest, ScenesThatWereAnsweredCanBeShownAgain) {
     EXPECT_EQ(send("PUT", "/scene", *scene.body).status, 200);
 }
 
+TEST_F(Rest, AddressesInScenesAreWholeForThoseAloneWhoMayShowThemAgain) {
+    const std::string address = "https://joe:sekret@host/a.eyt?sig=S";
+    fabric::Scene scene;
+    scene.objects.push_back({"a", fabric::ObjectKind::Terrain, address});
+    api_->begin(scene);
+    const auto asked = [&](const std::string& method, access::Role role) {
+        RestRequest request{method, "/scene"};
+        request.role = role;
+        return ask(request);
+    };
+    EXPECT_THAT(*asked("GET", access::Role::View).body, HasSubstr("\"https://…@host/a.eyt?…\""));
+    const RestAnswer whole = asked("GET", access::Role::Control);
+    EXPECT_THAT(*whole.body, HasSubstr(address));
+    EXPECT_THAT(*asked("GET", access::Role::Admin).body, HasSubstr(address));
+
+    RestRequest again{"PUT", "/scene", *whole.body, "application/json"};
+    again.role = access::Role::Control;
+    again.ifMatch = header(whole, "ETag");
+    const RestAnswer shown = ask(again);
+    ASSERT_EQ(shown.status, 200) << *shown.body;
+    EXPECT_THAT(*shown.body, HasSubstr(address));
+    EXPECT_EQ(header(shown, "ETag"), again.ifMatch);
+
+    again.body = R"({"objects":[{"terrain":")" + address + R"("}]})";
+    ASSERT_EQ(ask(again).status, 200);
+    EXPECT_EQ(frames_.status().scene.objects[0].name, "a.eyt?…") << "all see it";
+}
+
 TEST_F(Rest, ScenesNameNothingOutsideTheDataFolder) {
     std::ofstream(folder_.path("secret.eyt")) << "x";
     std::ofstream(folder_.path("data/source.tif")) << "x";

@@ -158,7 +158,8 @@ TEST_F(RestData, ScenesThatReachFartherThanCamerasAreRefused) {
         const RestAnswer answer = show(far);
         EXPECT_EQ(answer.status, 400) << far;
         EXPECT_THAT(member(answer, "detail"),
-                    testing::AllOf(HasSubstr("object 'dem.eyt'"), HasSubstr("1e+14")));
+                    testing::AllOf(HasSubstr("'dem.eyt'"), HasSubstr("1e+14")));
+        EXPECT_EQ(member(answer, "field"), "scene.objects[0]") << far;
     }
 }
 

@@ -46,6 +46,36 @@ TEST_F(Rest, IsTheSameOverGrpc) {
     service.stop();
 }
 
+TEST_F(Rest, AddressesInScenesAreWholeOverGrpcForThoseAloneWhoMayShowThemAgain) {
+    const std::string address = "https://joe:sekret@host/a.eyt?sig=S";
+    const std::string view = "view-0123456789abcdef0123456789";
+    const std::string control = "control-0123456789abcdef0123456789";
+    fabric::Scene scene;
+    scene.objects.push_back({"a", fabric::ObjectKind::Terrain, address});
+    api_->begin(scene);
+    wire::Security security;
+    security.gate = std::make_shared<access::Gate>(
+        *access::Tokens::parse("view " + view + "\ncontrol " + control + "\n", "t"));
+    CoordinatorService service(security);
+    service.use(api_->handlers());
+    const auto listening =
+        wire::listen({"127.0.0.1:0"}, std::vector<grpc::Service*>{&service}).value();
+    auto stub = v1::CoordinatorService::NewStub(
+        grpc::CreateChannel(listening.addresses.front(), grpc::InsecureChannelCredentials()));
+    const auto addressFor = [&](const std::string& token) {
+        grpc::ClientContext context;
+        context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
+        context.AddMetadata("authorization", "Bearer " + token);
+        v1::GetSceneResponse response;
+        EXPECT_TRUE(stub->GetScene(&context, {}, &response).ok());
+        return response.scene().objects_size() == 1 ? response.scene().objects(0).terrain() : "";
+    };
+    EXPECT_EQ(addressFor(view), "https://…@host/a.eyt?…");
+    EXPECT_EQ(addressFor(control), address);
+    listening.server->Shutdown();
+    service.stop();
+}
+
 TEST_F(Rest, PicturesAreAsLargeOverGrpc) {
     frames_.setDraw([](const coordinator::FrameRequest& request) {
         coordinator::RenderedFrame frame = coordinator::plainFrame(request, {1, 2, 3, 255});

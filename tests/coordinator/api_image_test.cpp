@@ -87,6 +87,15 @@ TEST_F(Rest, DepthComesInMetresAndItsTopRowFirst) {
     EXPECT_TRUE(frames_.requests().back().wantsDepth);
 }
 
+TEST_F(Rest, PicturesComeInJsonWhereThatTypeIsAccepted) {
+    for (const char* json : {"application/json", "image/png;q=.5, Application/JSON ; q=0.5",
+                             "application/json;charset=utf-8"})
+        EXPECT_EQ(get("/image?width=20", json).contentType, "application/json") << json;
+    for (const char* other : {"", "*/*", "image/png", "application/json-seq", "x/application/json",
+                              "image/png, application/json;q=0", "application/json; q=0.000"})
+        EXPECT_EQ(get("/image?width=20", other).contentType, "image/png") << other;
+}
+
 TEST_F(Rest, DepthComesAsAFloatMap) {
     frames_.setDraw([](const coordinator::FrameRequest& request) {
         coordinator::RenderedFrame frame = coordinator::plainFrame(request, {1, 2, 3, 255});

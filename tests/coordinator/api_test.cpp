@@ -63,7 +63,10 @@ TEST_F(Rest, SaysWhichFieldIsWrongAndWhatToDo) {
     EXPECT_EQ(text(width, "remedy"), "it must be from 1 to 8192");
     expectProblem(send("POST", "/image", R"({"width":8192,"height":8192})"), 400,
                   "INVALID_ARGUMENT");
-    expectProblem(send("POST", "/image", R"({"camera":{"eye":[0,0]}})"), 400, "INVALID_ARGUMENT");
+    const RestAnswer eye = send("POST", "/image", R"({"camera":{"eye":[0,0]}})");
+    expectProblem(eye, 400, "INVALID_ARGUMENT");
+    EXPECT_EQ(text(eye, "field"), "camera.eye");
+    EXPECT_THAT(text(eye, "detail"), StartsWith("camera.eye has 2 numbers"));
     expectProblem(send("POST", "/image", R"({"format":99})"), 400, "INVALID_ARGUMENT");
     EXPECT_THAT(frames_.requests(), IsEmpty());
 }

@@ -253,6 +253,23 @@ TEST(ConfigurationStateMessage, BringsBackTheStateThatItIsOf) {
     EXPECT_EQ(changed, state);
 }
 
+TEST(ConfigurationStateMessage, NamesTheEqualizerOfWhatIsWrong) {
+    Findings findings;
+    const Configuration balanced =
+        readEqc("config { compound { load_equalizer {} load_equalizer {} } }", findings);
+    const auto wrong = [&](const auto& setIn) {
+        v1::ConfigurationState message;
+        message.add_equalizers()->set_equalizer(1);
+        setIn(*message.mutable_equalizers(0));
+        ConfigurationState state = initialState(balanced);
+        return std::string(change(message, balanced, state).message());
+    };
+    EXPECT_EQ(wrong([](v1::EqualizerTuning& tuning) { tuning.add_boundary(3); }),
+              "equalizer 1: boundary has 1 numbers; it must have 2");
+    EXPECT_EQ(wrong([](v1::EqualizerTuning& tuning) { tuning.set_damping(3); }),
+              "equalizer 1: damping is 3; it must be from 0 to 1");
+}
+
 TEST(ConfigurationStateMessage, WithAnErrorChangesNothing) {
     Findings findings;
     const Configuration configuration = readEqc(

@@ -127,8 +127,10 @@ TEST(EqcWarnings, NameTheSettingThatIsMeantWhereCaseOrTypeIsAnother) {
     for (const std::string written :
          {"EQ_CONFIG_IATTR_EYE_BASE", "EQ_CONFIG_FATTR_eye_base", "EQ_CONFIG_iATTR_EYE_BASE"})
         EXPECT_EQ(found(written + " .2", ""), isNone(written));
-    EXPECT_EQ(found("EQ_CONFIG_FATTR_EYE 1", ""),
-              "f:1:10: warning: 'EQ_CONFIG_FATTR_EYE' is no global setting and is left out\n");
+    EXPECT_EQ(
+        found("EQ_CONFIG_FATTR_EYE 1", ""),
+        "f:1:10: warning: 'EQ_CONFIG_FATTR_EYE' is no global setting and is left out, did you "
+        "mean 'EQ_CONFIG_FATTR_EYE_BASE'?\n");
     EXPECT_EQ(
         found("", "EYE_BASE .2"),
         "f:3:14: warning: 'EYE_BASE' is no setting here and is left out; 'eye_base' is one\n");

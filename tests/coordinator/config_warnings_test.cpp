@@ -87,6 +87,47 @@ TEST(EqcWarnings, NameQueuesThatNobodyMakesOrTakes) {
               "draws all of its part\n");
 }
 
+TEST(EqcWarnings, NameQueuesThatAnotherOfTheirNameLeavesWithoutEffect) {
+    const auto found = [](const std::string& first, const std::string& second) {
+        return describe(
+            Read(withCompounds(
+                     "compound { channel ( segment 0 view 0 )\n compound { " + first +
+                     " outputtiles { name \"q\" size [ 64 64 ] }\n compound { inputtiles { name "
+                     "\"q\" } } }\n compound { " +
+                     second +
+                     "\n outputtiles { name \"q\" size [ 32 32 ] }\n compound { inputtiles { name "
+                     "\"q\" } } } }"))
+                .findings,
+            "f");
+    };
+    const std::string second =
+        "f:5:2: warning: other outputtiles are named \"q\" already; these have no effect\n";
+    EXPECT_THAT(found("", ""), HasSubstr(second));
+    const auto isNone = [&](const std::string& text) { return text.find(second) == text.npos; };
+    EXPECT_TRUE(isNone(found("period 2 phase 0", "period 2 phase 1"))) << "of other frames";
+    EXPECT_TRUE(isNone(found("zoom [ .5 .5 ]", ""))) << "of other pixels";
+}
+
+TEST(EqcWarnings, ProposeTheSettingThatIsNearlyOneThatIsNone) {
+    const auto found = [](const std::string& global, const std::string& attributes) {
+        return describe(Read("global { " + global +
+                             " }\nconfig { appNode { pipe { window { "
+                             "attributes { " +
+                             attributes + " } channel { name \"a\" } } } } }")
+                            .findings,
+                        "f");
+    };
+    EXPECT_EQ(found("", "hint_stereoo OFF"),
+              "f:2:49: warning: 'hint_stereoo' is no setting here and is left out, did you mean "
+              "'hint_stereo'?\n");
+    EXPECT_EQ(
+        found("EQ_CONFIG_FATTR_EYE_BAS .05", ""),
+        "f:1:10: warning: 'EQ_CONFIG_FATTR_EYE_BAS' is no global setting and is left out, did "
+        "you mean 'EQ_CONFIG_FATTR_EYE_BASE'?\n");
+    EXPECT_EQ(found("", "colour OFF"),
+              "f:2:49: warning: 'colour' is no setting here and is left out\n");
+}
+
 TEST(EqcWarnings, NameFramesThatTheTasksLeaveOut) {
     const auto found = [](const std::string& ofWhole, const std::string& ofPart) {
         return describe(
@@ -405,6 +446,16 @@ TEST(EqcLoadBalancers, HaveAResistanceInPixelsOrAsAShare) {
     };
     EXPECT_EQ(of("mode 2D resistance [ 8 6 ]").resistancePixels, fabric::Vec2(8, 6));
     EXPECT_EQ(of("mode DB resistance .25").resistanceRange, .25);
+}
+
+TEST(EqcLoadBalancers, WithoutAModeAreToldWhichTheyAreTakenFor) {
+    const Read read(balancer("damping .25"));
+    EXPECT_EQ(
+        describe(read.findings, "f"),
+        "f:2:1: warning: a loadBalancer without `mode` is taken for one of mode 2D; say which "
+        "it is\n");
+    EXPECT_EQ(read.configuration.compounds[0].equalizers.at(0).mode, SplitMode::TwoD);
+    EXPECT_EQ(describe(Read(balancer("mode 2D damping .25")).findings, "f"), "");
 }
 
 TEST(EqcLoadBalancers, NameAllModesThatThereAre) {

@@ -261,6 +261,26 @@ TEST_F(HttpApi, WhoTakesNoStatisticsIsCutOff) {
                 HasSubstr("eyrie_requests_refused_total{reason=\"too_slow\"} 1\n"));
 }
 
+TEST_F(HttpApi, AddressesInScenesAreWholeForThoseAloneWhoMayShowThemAgain) {
+    const std::string address = "https://joe:sekret@host/a.eyt?sig=S";
+    coordinator::Status status = frames_.status();
+    status.scene.objects = {{"a", fabric::ObjectKind::Terrain, address}};
+    frames_.setStatus(status);
+    EXPECT_THAT(ask("GET /api/v1/scene"), HasSubstr(address)) << "all may all without tokens";
+
+    const std::string view = "view-0123456789abcdef0123456789";
+    const std::string control = "control-0123456789abcdef0123456789";
+    ServerOptions options;
+    options.gate = std::make_shared<access::Gate>(
+        *access::Tokens::parse(fmt::format("view {}\ncontrol {}\n", view, control), "t"));
+    start(options);
+    const auto shownTo = [this](const std::string& token) {
+        return ask("GET /api/v1/scene", fmt::format("Authorization: Bearer {}\r\n", token));
+    };
+    EXPECT_THAT(shownTo(view), HasSubstr("\"https://…@host/a.eyt?…\""));
+    EXPECT_THAT(shownTo(control), HasSubstr(address));
+}
+
 TEST_F(HttpApi, PagesOfOtherSitesGetNothing) {
     EXPECT_THAT(ask("GET /api/v1/status", "Origin: http://evil.example\r\n"),
                 StartsWith("HTTP/1.1 403"));

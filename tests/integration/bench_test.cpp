@@ -416,10 +416,14 @@ TEST_F(Bench, SaysThatASceneIsTooSmallToBeSeen) {
     const test::Outcome played = eyrie(arguments);
     EXPECT_EQ(played.exit, (test::Exit{0, 0})) << played.errors;
     EXPECT_THAT(played.errors, testing::HasSubstr("small.json: the scene is 0."));
+    arguments.back() = path("small measured");
     arguments.insert(arguments.end(), {"--reference", "--quiet"});
     const test::Outcome measured = eyrie(arguments);
     EXPECT_EQ(measured.exit, (test::Exit{1, 0})) << measured.errors;
     EXPECT_THAT(measured.errors, testing::ContainsRegex("nothing was measured.*scale it up"));
+    EXPECT_EQ(test::list(summaryOf(path("small measured")), "runs").size(), 1U)
+        << "how fast it was is in the report nevertheless";
+    EXPECT_FALSE(std::filesystem::exists(path("small measured/errors.csv")));
 }
 
 TEST_F(Bench, AStillCameraIsAFlightAndEmptyFramesAreCounted) {

@@ -135,9 +135,6 @@ export type ProfileState =
   | { kind: "asking"; from: Vec3; to: Vec3 }
   | { kind: "problem"; text: string };
 
-/** For who moves the view of a session that another leads. */
-export const watchingText = "You watch this session: take the lead to move the view";
-
 /** Everything the page shows. The viewer writes it; panels read it. */
 export class State {
   readonly connection = new Value<Connection>({ kind: "connecting" });
@@ -171,5 +168,11 @@ export class State {
   /** Another moves the view, or nobody: this page only sees it. */
   get isWatching(): boolean {
     return this.session.value?.place?.leads === false;
+  }
+
+  /** For who watches, and tries what only who leads can. */
+  watchingText(what: string): string {
+    const mayLead = this.session.value?.place?.mayControl === true;
+    return `You watch this session${mayLead ? `: take the lead to ${what}` : ` and may not ${what}`}`;
   }
 }

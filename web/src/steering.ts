@@ -12,7 +12,6 @@ import type { Point } from "./camera/touch";
 import { seenFrom } from "./camera/walk";
 import { homeOf, objectBounds, wholeBounds } from "./drawn_bounds";
 import type { State } from "./state";
-import { watchingText } from "./state";
 import type { Size } from "./view/size";
 import type { WalkerEvents } from "./walker";
 import { Walker } from "./walker";
@@ -88,6 +87,10 @@ export class Steering implements CameraHolder {
     return this.state.isWatching;
   }
 
+  get watchingText(): string {
+    return this.state.watchingText("move the view");
+  }
+
   get isFlying(): boolean {
     return this.state.flying.value;
   }
@@ -102,7 +105,7 @@ export class Steering implements CameraHolder {
   }
 
   setWalking(isWalking: boolean): void {
-    if (isWalking && this.isWatching) return this.state.notice.set(watchingText);
+    if (isWalking && this.isWatching) return this.state.notice.set(this.watchingText);
     if (isWalking && this.camera === null) return this.walkFailed(false);
     if (isWalking) this.state.flying.set(false);
     this.state.walking.set(isWalking);
@@ -166,7 +169,7 @@ export class Steering implements CameraHolder {
   private moveTo(camera: Camera, inputTime?: number): void {
     if (!isUsable(camera)) return;
     if (this.isWatching) {
-      if (inputTime !== undefined) this.state.notice.set(watchingText);
+      if (inputTime !== undefined) this.state.notice.set(this.watchingText);
       return;
     }
     this.camera = camera;

@@ -160,7 +160,7 @@ export class Viewer {
   /** For everybody; what comes of it is in the session's state. False for who watches. */
   switchLayout(canvas: string, layout: string): boolean {
     if (this.state.isWatching) {
-      this.state.notice.set("You watch this session: take the lead to switch layouts");
+      this.state.notice.set(this.state.watchingText("switch layouts"));
       return false;
     }
     this.isAsking = true;
@@ -235,7 +235,7 @@ export class Viewer {
       areSame(settingsOf(this.state), this.led)
     )
       return;
-    this.state.notice.set("You watch this session: take the lead to change what is seen");
+    this.state.notice.set(this.state.watchingText("change what is seen"));
     applySettings(this.state, this.led);
   }
 

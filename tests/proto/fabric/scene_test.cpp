@@ -35,6 +35,25 @@ TEST(Scene, ARefusedTransformNamesItsObject) {
         EXPECT_THAT(refusal(sceneWith(object)), testing::HasSubstr("'bunny'"));
 }
 
+TEST(Scene, WhatIsWrongIsNamedByItsPlaceInTheScene) {
+    using testing::StartsWith;
+    Scene scene;
+    scene.objects = {bunny(), bunny()};
+    scene.objects[1].worldFromObject[2][2] = 0;
+    EXPECT_THAT(refusal(scene), StartsWith("scene.objects[1] 'bunny': "));
+    scene.objects[1] = bunny();
+    scene.objects[0].path.clear();
+    EXPECT_THAT(refusal(scene), StartsWith("scene.objects[0] 'bunny' lacks its path"));
+    scene.objects.clear();
+    scene.lights = {{}, {Vec3(0), Vec3(1)}};
+    EXPECT_THAT(refusal(scene), StartsWith("scene.lights[1].direction must"));
+    scene.lights.clear();
+    scene.pointLights = {{}, {Vec3(0), Vec3(1), 0}};
+    EXPECT_THAT(refusal(scene), StartsWith("scene.pointLights[1].reach is 0"));
+    scene.pointLights[1] = {Vec3(0), Vec3(1), 1, LightCone{Vec3(0, 0, -1), 0, 91}};
+    EXPECT_THAT(refusal(scene), StartsWith("scene.pointLights[1].cone.outerDegrees is 91"));
+}
+
 TEST(Scene, AnObjectIsNotMovedOrScaledWhereNoCameraSeesAllOfIt) {
     for (const int column : {1, 3}) {
         SceneObject far = bunny();
@@ -61,7 +80,7 @@ TEST(Scene, LightsAreFewAndHaveADirection) {
     EXPECT_THAT(refusal(crowded), testing::HasSubstr("5 lights; at most 4"));
     Scene aimless;
     aimless.lights = {{Vec3(0.0), Vec3(1.0)}};
-    EXPECT_THAT(refusal(aimless), testing::HasSubstr("scene.lights.direction"));
+    EXPECT_THAT(refusal(aimless), testing::HasSubstr("scene.lights[0].direction"));
     Scene glaring;
     glaring.ambient = 1.5;
     EXPECT_THAT(refusal(glaring), testing::HasSubstr("scene.ambient"));

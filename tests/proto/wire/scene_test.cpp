@@ -94,6 +94,14 @@ TEST(WireScene, WhatIsAbsentTakesItsDefault) {
     EXPECT_EQ(scene.background, fabric::Scene{}.background);
 }
 
+TEST(WireScene, NamesThatAreOfAddressesHaveNoQuery) {
+    EXPECT_EQ(sceneFrom(R"({"objects":[{"terrain":"https://h/dem.eyt?sig=S/x"}]})")
+                  .value()
+                  .objects[0]
+                  .name,
+              "dem.eyt?…");
+}
+
 TEST(WireScene, AmbientMayBeZero) { EXPECT_EQ(sceneFrom(R"({"ambient":0})").value().ambient, 0); }
 
 TEST(WireScene, ColoursAreSrgb) {

@@ -42,6 +42,18 @@ TEST(MeshImport, WritesTheMeshThatTheReportTellsOf) {
     EXPECT_THAT(folder.names(), testing::UnorderedElementsAre("m.ply", "m.eym"));
 }
 
+TEST(MeshImport, OfAddressesIsRefusedWithWhatToDo) {
+    const test::TemporaryFolder folder;
+    for (const char* address :
+         {"s3://bucket/m.ply", "https://h/m.obj", "/vsis3/bucket/m.ply", "/vsizip/m.zip/m.ply"}) {
+        const absl::Status status = importMesh({address}, folder.file("m.eym")).status();
+        EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
+        EXPECT_THAT(status.ToString(),
+                    HasSubstr(std::string(address) + ": a mesh is read from a file of"));
+    }
+    EXPECT_THAT(folder.names(), testing::IsEmpty());
+}
+
 TEST(MeshImport, GivesTheSameBytesForAnyNumberOfThreadsAndEitherWay) {
     const test::TemporaryFolder folder;
     const TriangleMesh source = synthesizeMesh(100000, 2);

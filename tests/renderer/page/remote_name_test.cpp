@@ -17,6 +17,31 @@ TEST(RemoteName, IsAnAddressOrAVirtualFileSystemAndNothingElse) {
         EXPECT_FALSE(isRemote(local)) << local;
 }
 
+TEST(RemoteName, IsNoneOfArchivesOfThisMachine) {
+    for (const char* local :
+         {"/vsizip/data/a.zip/b.tif", "/vsizip//data/a.zip/b.eyt", "/vsizip/{/data/a.zip}/b.eyt",
+          "/vsitar/a.tar/b.eyt", "/vsigzip//data/a.eyt.gz"}) {
+        EXPECT_FALSE(isRemote(local)) << local;
+        EXPECT_TRUE(isVirtual(local) && !isPlainPath(local)) << local;
+        EXPECT_TRUE(AllowedUrls().check(local).ok()) << local;
+    }
+    for (const char* remote :
+         {"/vsizip//vsicurl/https://h/a.zip/b", "/vsizip/vsis3/bucket/a.zip/b",
+          "/vsizip/{/vsis3/bucket/a.zip}/b", "/vsizip/{vsigs/bucket/a.zip}/b",
+          "/vsitar//vsizip//VSICURL/h/a.zip/b.tar/c", "/vsizip/data/..//vsiaz/b/a.zip/c",
+          "/vsigzip/http://h/a.gz", "/vsizip?/data/a.zip/b", "/vsisubfile/0_9,/data/a.eyt"}) {
+        EXPECT_TRUE(isRemote(remote)) << remote;
+        EXPECT_TRUE(absl::IsPermissionDenied(AllowedUrls().check(remote))) << remote;
+    }
+}
+
+TEST(RemoteName, IsAPlainPathWhereNoAddressIsMeant) {
+    for (const char* plain : {"a.ply", "/data/a.ply", "./s3://b/x", "C:/x"})
+        EXPECT_TRUE(isPlainPath(plain)) << plain;
+    for (const char* other : {"https://h/a.ply", "/vsis3/b/a.ply", "s3://b/a.ply", "ftp://h/a"})
+        EXPECT_FALSE(isPlainPath(other)) << other;
+}
+
 TEST(RemoteName, OfAnAddressIsThatOfGdalsHttpFileSystem) {
     EXPECT_EQ(gdalName("https://h/a.eyt"), "/vsicurl/https://h/a.eyt");
     EXPECT_EQ(gdalName("HttpS://H/a.eyt"), "/vsicurl/https://H/a.eyt");

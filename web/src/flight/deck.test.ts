@@ -19,6 +19,7 @@ class StageOfTest implements Stage {
   camera: Camera | null = cameraAt(0);
   movements = 0;
   isWatching = false;
+  readonly watchingText = "another moves the view";
   exact: Blob | undefined;
   readonly pictureSize = { width: 64, height: 36 };
   tau = 1;
@@ -116,7 +117,7 @@ describe("A flight deck", () => {
     deck.load({ name: "", keys });
     stage.isWatching = true;
     stage.exact = new Blob(["the leader's picture"]);
-    const why = "You watch this session: take the lead to move the view";
+    const why = stage.watchingText;
     await expect(deck.draw(1)).rejects.toThrow(why);
     expect(deck.activity.value.kind).toBe("idle");
     for (const show of [() => deck.play(), () => deck.seek(1)]) {

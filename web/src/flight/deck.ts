@@ -2,7 +2,7 @@
 // Records, plays and draws a flight.
 import type { Camera } from "../camera/camera";
 import type { SharedView } from "../share";
-import { Value, watchingText } from "../state";
+import { Value } from "../state";
 import type { Size } from "../view/size";
 import { flightJson } from "./file";
 import { fitKeys, offBy } from "./fit";
@@ -17,6 +17,8 @@ export interface Stage {
   readonly movements: number;
   /** Another moves the view: moveAlong() does nothing. */
   readonly isWatching: boolean;
+  /** For the user, where that keeps the view from moving. */
+  readonly watchingText: string;
   /** Shows a camera of the flight. */
   moveAlong(camera: Camera): void;
 }
@@ -100,7 +102,7 @@ export class FlightDeck {
   seek(seconds: number): void {
     this.stop();
     this.show(seconds);
-    if (this.stage.isWatching) this.tell(watchingText);
+    if (this.stage.isWatching) this.tell(this.stage.watchingText);
   }
 
   private show(seconds: number): void {
@@ -167,7 +169,7 @@ export class FlightDeck {
   play(): void {
     this.stop();
     if (this.flight.value.keys.length === 0) return this.tell("There is no flight to play yet");
-    if (this.stage.isWatching) return this.tell(watchingText);
+    if (this.stage.isWatching) return this.tell(this.stage.watchingText);
     const from = this.seconds.value < this.length ? this.seconds.value : 0;
     const start = performance.now() - 1000 * from;
     this.activity.set({ kind: "playing" });
@@ -247,7 +249,7 @@ export class FlightDeck {
     while (performance.now() < deadline) {
       if (!isWanted()) return undefined;
       // What is exact then is another's picture.
-      if (this.stage.isWatching) throw new Error(watchingText);
+      if (this.stage.isWatching) throw new Error(this.stage.watchingText);
       if (this.stage.movements !== this.expected)
         throw new Error("The view was moved meanwhile: no pictures are saved");
       const picture = this.pictures.exactNow();
