@@ -138,17 +138,17 @@ TEST(WireScene, ARefusalNamesTheObjectAndField) {
     EXPECT_THAT(refusal(R"({"pointLights":[{"reach":1}]})"),
                 testing::HasSubstr("pointLights[0].position"));
     EXPECT_THAT(refusal(R"({"pointLights":[{"position":[0,0,1]}]})"),
-                testing::HasSubstr("pointLights.reach is 0"));
+                testing::HasSubstr("scene.pointLights[0].reach is 0"));
     const auto refusalOfCone = [](const std::string& cone) {
         return refusal(R"({"pointLights":[{"position":[0,0,1],"reach":1,"cone":)" + cone + "}]}");
     };
     EXPECT_THAT(refusalOfCone("{}"), testing::HasSubstr("pointLights[0].cone.axis"));
     EXPECT_THAT(refusalOfCone(R"({"axis":[0,0,-1],"outerDegrees":120})"),
-                testing::HasSubstr("pointLights.cone.outerDegrees is 120"));
+                testing::HasSubstr("pointLights[0].cone.outerDegrees is 120"));
     EXPECT_THAT(refusalOfCone(R"({"axis":[0,0,-1],"innerDegrees":20,"outerDegrees":10})"),
-                testing::HasSubstr("pointLights.cone.innerDegrees is 20"));
+                testing::HasSubstr("pointLights[0].cone.innerDegrees is 20"));
     EXPECT_THAT(refusalOfCone(R"({"axis":[0,0,-1],"innerDegrees":"NaN"})"),
-                testing::HasSubstr("pointLights.cone.innerDegrees is nan"));
+                testing::HasSubstr("pointLights[0].cone.innerDegrees is nan"));
 }
 
 TEST(WireScene, ASpotComesBackAsItWasAndIs45DegreesWideWhereItSaysNothing) {
