@@ -12,7 +12,8 @@ import {
 
 /**
  * Turns the view by a key, and compares the picture that comes first, of several JPEGs, with the
- * exact one that follows: how many there were, and the mean difference of the pixels' values.
+ * exact one that follows: how many there were, and the mean difference of the pixels' values, NaN
+ * where it was smaller.
  */
 function movingBesideExact(page) {
   return page.evaluate(async () => {
@@ -71,7 +72,12 @@ await run("demo_test", async (browser, started) => {
     "at rest every pixel on the canvas is the server's",
   );
 
-  const tiles = await movingBesideExact(page);
+  // On a machine that was busy for a moment the first may be smaller, as for a slow link.
+  let tiles = await movingBesideExact(page);
+  for (let again = 0; again < 8 && Number.isNaN(tiles.difference); ++again) {
+    await browser.settled();
+    tiles = await movingBesideExact(page);
+  }
   check(
     tiles.count === 2 && tiles.difference < 3,
     `moving pictures are the ${tiles.count} tiles that renderers encoded, ` +
