@@ -72,14 +72,15 @@ await run("demo_test", async (browser, started) => {
     "at rest every pixel on the canvas is the server's",
   );
 
-  // On a machine that was busy for a moment the first may be smaller, as for a slow link.
+  // On a machine that was busy for a moment the first may be smaller, or coarser, as for a slow link.
+  const isRight = ({ count, difference }) => count === 2 && difference < 3;
   let tiles = await movingBesideExact(page);
-  for (let again = 0; again < 8 && Number.isNaN(tiles.difference); ++again) {
+  for (let again = 0; again < 8 && !isRight(tiles); ++again) {
     await browser.settled();
     tiles = await movingBesideExact(page);
   }
   check(
-    tiles.count === 2 && tiles.difference < 3,
+    isRight(tiles),
     `moving pictures are the ${tiles.count} tiles that renderers encoded, ` +
       `${tiles.difference.toFixed(2)} levels beside the exact one`,
   );

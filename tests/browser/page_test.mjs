@@ -63,8 +63,9 @@ await run("page_test", async (browser, started) => {
   await page.waitForTimeout(700);
   check((await browser.hook("frameNumber")) === frames, "nothing is drawn while nothing changes");
 
+  const shown = await browser.hook("viewSequence");
   await page.keyboard.press("r");
-  await browser.until(() => !window.eyrie.exact);
+  await page.waitForFunction((before) => window.eyrie.viewSequence > before, shown);
   await browser.settled();
   check(difference(home, await browser.picture()) < 0.01, "R shows the home view again");
 
@@ -74,8 +75,9 @@ await run("page_test", async (browser, started) => {
     ["w", "W flies"],
   ]) {
     const before = JSON.stringify(await browser.hook("camera"));
-    await page.keyboard.press(key, { delay: 60 });
+    await page.keyboard.down(key);
     await page.waitForFunction((old) => JSON.stringify(window.eyrie.camera) !== old, before);
+    await page.keyboard.up(key);
     check(true, name);
   }
   check(await page.locator("#mode").isVisible(), "flying says how to end it");

@@ -141,7 +141,7 @@ export class Browser {
   }
 
   /** Waits until `predicate`, which sees window.eyrie, holds in the page. */
-  until(predicate, timeout = 15_000) {
+  until(predicate, timeout = 60_000) {
     return this.page.waitForFunction(predicate, undefined, { timeout, polling: 10 });
   }
 
@@ -153,6 +153,13 @@ export class Browser {
 
   /** Waits until nothing more will be drawn. */
   async settled() {
+    // What was set is sent with the next animation frame.
+    await this.page.evaluate(() =>
+      Promise.race([
+        new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
+        new Promise((done) => setTimeout(done, 2000)),
+      ]),
+    );
     for (;;) {
       await this.until(() => window.eyrie?.exact === true && !window.eyrie.waitingMilliseconds);
       await this.eased();
@@ -228,7 +235,7 @@ export class Browser {
       canvas.focus();
       const start = performance.now();
       canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft", bubbles: true }));
-      while (times.exact === undefined && performance.now() - start < 10_000) {
+      while (times.exact === undefined && performance.now() - start < 60_000) {
         await new Promise((resolve) => setTimeout(resolve, 2));
         if (window.eyrie.frameNumber === before) continue;
         const elapsed = performance.now() - start;

@@ -65,7 +65,7 @@ private:
 class ApiUntaken : public BothDoors {
 protected:
     void makeApiOfShortPatience(const Quotas& quotas) {
-        patience_ = std::chrono::milliseconds(300);
+        patience_ = std::chrono::milliseconds(1500);
         makeApi(quotas);
     }
     Untaken makeUntaken(const std::string& name, const google::protobuf::Message& request) const {

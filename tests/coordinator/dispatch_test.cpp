@@ -76,7 +76,7 @@ protected:
 
 class ImpatientDispatch : public DispatchTest {
 protected:
-    ImpatientDispatch() : DispatchTest(milliseconds(100)) {}
+    ImpatientDispatch() : DispatchTest(milliseconds(500)) {}
 };
 
 TEST_F(DispatchTest, EachTaskIsDrawnByTheRendererThatItPrefers) {

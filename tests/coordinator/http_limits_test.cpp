@@ -61,7 +61,7 @@ TEST_F(HttpAccess, FiveHundredSlowConnectionsAreCutOffAndKeepNobodyOut) {
 
 TEST_F(HttpAccess, ARequestThatDoesNotComeToItsEndIsToldSoAndCounted) {
     ServerOptions options;
-    options.headerTimeout = milliseconds(200);
+    options.headerTimeout = milliseconds(1000);
     start(options, false);
     for (const char* part :
          {"GET / HT", "POST /login HTTP/1.1\r\nHost: a\r\nContent-Length: 5\r\n\r\nab"}) {

@@ -152,7 +152,7 @@ TEST_F(Https, RefusesToStartWithFilesThatNobodyCouldUse) {
 
 TEST_F(Https, CutsOffAHandshakeThatIsNotFinished) {
     ServerOptions options;
-    options.headerTimeout = milliseconds(200);
+    options.headerTimeout = milliseconds(1000);
     options.tls = authority_.issue("server");
     HttpAccess::start(options);
     tcp::socket mute = connect();

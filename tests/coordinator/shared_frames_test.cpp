@@ -165,7 +165,7 @@ TEST_P(QueueOf, GivesWorkToWhoeverIsFree) {
 
 TEST_P(QueueOf, ASlowRendererGetsFewer) {
     open(queued(GetParam()), 3);
-    renderers_[2]->takes = milliseconds(200);
+    renderers_[2]->takes = milliseconds(600);
     expectWholePicture();
     // Of about 20; how the others share theirs is the scheduler's.
     EXPECT_GE(renderers_[2]->drawn, 1);

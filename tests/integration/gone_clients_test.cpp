@@ -75,7 +75,7 @@ protected:
 
     /// The renderer is there, has nothing else to do and draws what is asked for.
     void expectPicture() const {
-        EXPECT_TRUE(isReady());
+        EXPECT_TRUE(test::eventually(seconds(30), [&] { return isReady(); }));
         const auto picture =
             test::httpGet(http_, "/api/v1/image?width=320&height=180", seconds(100));
         ASSERT_TRUE(picture.ok()) << picture.status();

@@ -185,7 +185,8 @@ TEST_F(Served, GoesOnWhileTheWallClockJumps) {
         EXPECT_EQ(conditions()["dead"], 0) << server_->errors();
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
     }
-    EXPECT_EQ(conditions()["ready"], 2) << server_->errors();
+    EXPECT_TRUE(test::eventually(seconds(60), [&] { return conditions()["ready"] == 2; }))
+        << server_->errors();
     EXPECT_EQ(test::childrenOf(server_->id()), children);
     server_->send(SIGTERM);
     EXPECT_EQ(server_->waitFor(seconds(30)), (test::Exit{0, 0})) << server_->errors();
