@@ -46,7 +46,8 @@ MeshChoice::MeshChoice(std::shared_ptr<const mesh::EymFile> file, const fabric::
     : file_(std::move(file)),
       worldFromObject_(object.worldFromObject),
       mayBePoints_(!object.singleSided),
-      paging_(std::move(paging)) {}
+      paging_(std::move(paging)),
+      near_(*file_) {}
 
 MeshCut MeshChoice::wantedOf(const lod::ObjectView& view, double tauPixels) const {
     return cutOf(
@@ -165,6 +166,23 @@ std::vector<Piece> MeshChoice::piecesOf(const MeshCut& drawn, const NodeShares& 
     return pieces;
 }
 
+/// By what is in a node's box where that does not say enough: it does not keep tau, as none can
+/// that the eye is in, or is so near that what single precision makes of its corners shows.
+double MeshChoice::errorOf(MeshCut drawn, const CutRequest& request) {
+    for (CutNode& each : drawn.drawn) {
+        const DeviceNode* const node = paging_->node(each.node);
+        if (each.points > 0 || node == nullptr)
+            continue;
+        const fabric::Box box = file_->bounds(each.node);
+        if (each.errorPixels > request.tauPixels || request.view.roundingPixels(box, box) > 0)
+            each.errorPixels =
+                errorOfBlocksPixels(node->blocks, file_->lattice(), request.view,
+                                    {file_->nodes()[each.node].farthestMetres(), request.tauPixels},
+                                    near_.of(each.node, *node));
+    }
+    return drawn.errorPixels();
+}
+
 double MeshChoice::viewWork(const CutRequest& request) {
     const std::vector<double> work = workOf(*file_, request.view, wantedAt(0, request).wanted);
     return std::accumulate(work.begin(), work.end(), 0.0);
@@ -208,8 +226,8 @@ Cut MeshChoice::select(const CutRequest& request) {
                 return !paging_->isResident(node.node) && paging_->isFailing(node.node);
             }));
     cut.isComplete = cut.pagesMissing == 0 && choice.isLowest;
-    errorPixels_ = drawn.errorPixels();
     cut.pieces = piecesOf(drawn, shares);
+    errorPixels_ = errorOf(std::move(drawn), request);
     wanted_.clear();
     return cut;
 }

@@ -10,6 +10,7 @@
 #include "renderer/draw/drawable.h"
 #include "renderer/draw/mesh_cut.h"
 #include "renderer/draw/mesh_paging.h"
+#include "renderer/draw/near_triangles.h"
 #include "renderer/draw/node_shares.h"
 #include "renderer/draw/prefetch.h"
 #include "renderer/draw/tau_choice.h"
@@ -46,6 +47,7 @@ private:
     MeshPaging::Progress load(const CutRequest& request, double tauPixels, const NodeShares& shares,
                               const MeshCut& drawn);
     std::vector<Piece> piecesOf(const MeshCut& drawn, const NodeShares& shares) const;
+    double errorOf(MeshCut drawn, const CutRequest& request);
     bool hasBlended(std::uint32_t node) const;
 
     const std::shared_ptr<const mesh::EymFile> file_;
@@ -53,6 +55,7 @@ private:
     /// Points are lit as their triangles, but do not know which way these face.
     const bool mayBePoints_;
     const std::unique_ptr<MeshPaging> paging_;
+    NearTriangles near_;
     PerView<Prefetch> prefetch_;
     TauChoice tau_;
     /// By the view that is about to be drawn, whatever is there, by step.

@@ -96,11 +96,26 @@ double distanceAtLeast(const Corners& corners) {
     return least;
 }
 
-/// And to the plane of a triangle; 0 of one that has none.
-double distanceAtLeast(std::span<const Vec3, 3> corners) {
+double distanceToEdge(const Vec3& from, const Vec3& to) {
+    const Vec3 way = to - from;
+    const double length = glm::dot(way, way);
+    const double share = length > 0 ? std::clamp(-glm::dot(from, way) / length, 0.0, 1.0) : 0;
+    return glm::length(from + share * way);
+}
+
+/// From the eye to a triangle in the view: to its inside where that is straight ahead of it, else
+/// to an edge.
+double distanceTo(std::span<const Vec3, 3> corners) {
     const Vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    const double length = glm::length(normal);
-    return length > 0 ? std::abs(glm::dot(normal, corners[0])) / length : 0;
+    double nearest = kInfinity;
+    bool isAbove = glm::dot(normal, normal) > 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3& from = corners[i];
+        const Vec3& to = corners[(i + 1) % 3];
+        nearest = std::min(nearest, distanceToEdge(from, to));
+        isAbove = isAbove && glm::dot(glm::cross(to - from, -from), normal) >= 0;
+    }
+    return isAbove ? std::abs(glm::dot(normal, corners[0])) / glm::length(normal) : nearest;
 }
 
 /// In pixels, how far apart two points are at most that are `off` apart, when one is `depth` away
@@ -112,15 +127,15 @@ double apartPixels(const View& view, double off, double depth, double secant) {
 }
 
 /// How far what is seen of a surface, no nearer to the eye than `distance`, is drawn from where it
-/// is, in pixels, when that is up to `off` in space. A point that is drawn in the picture is of one
-/// in a frustum wider by what is known already, the distance alone at first
-/// (docs/errors.md#corners-far-away).
+/// is, in pixels, when that is up to `off` in space; up to `enough` need not be told apart. A point
+/// that is drawn in the picture is of one in a frustum wider by what is known already, the distance
+/// alone at first (docs/errors.md#corners-far-away).
 template <typename SurfaceCorners>
 double displacementPixels(const View& view, const SurfaceCorners& corners, double distance,
-                          double off) {
+                          double off, double enough) {
     const double widest = std::sqrt(widestSecantSquared(view.frustum));
     double known = apartPixels(view, off, (distance - off) / widest, widest);
-    while (known > kSnappedPixels && known < kInfinity) {
+    while (known > enough && known < kInfinity) {
         const VisiblePart part =
             visiblePart(corners, widened(view.frustum, known / view.focalPixels));
         if (part.minDepth == kInfinity)
@@ -131,7 +146,19 @@ double displacementPixels(const View& view, const SurfaceCorners& corners, doubl
         if (known > 0.9 * before)
             break;
     }
-    return known > kSnappedPixels ? known : 0;
+    return known;
+}
+
+/// Of what rounding moves.
+template <typename SurfaceCorners>
+double roundedPixels(const View& view, const SurfaceCorners& corners, double distance, double off) {
+    const double pixels = displacementPixels(view, corners, distance, off, kSnappedPixels);
+    return pixels > kSnappedPixels ? pixels : 0;
+}
+
+std::array<Vec3, 3> inView(std::span<const Vec3, 3> triangle, const Mat4& viewFromObject) {
+    return {viewPoint(triangle[0], viewFromObject), viewPoint(triangle[1], viewFromObject),
+            viewPoint(triangle[2], viewFromObject)};
 }
 
 /// Exactly the ends at 0 and 1.
@@ -281,6 +308,19 @@ double ObjectView::screenSpaceErrorPixels(double errorMetres, const Box& bounds)
     return kInfinity;
 }
 
+double ObjectView::looseErrorPixels(double errorMetres, const Box& bounds) const {
+    constexpr double kMarginPixels = 16;
+    const Box grown = bounds.grownBy(errorMetres);
+    const Vec3 eye(objectFromView_[3]);
+    const Vec3 near = glm::max(glm::max(grown.min - eye, eye - grown.max), Vec3(0.0));
+    const double distance = glm::length(near) * leastMetresPerObjectUnit_;
+    const double secantSquared =
+        widestSecantSquared(widened(view_.frustum, kMarginPixels / view_.focalPixels));
+    const double bound =
+        errorMetres * metresPerObjectUnit_ * view_.greatestFocalPixels() * secantSquared;
+    return bound <= kMarginPixels * distance ? bound / std::max(distance, 1e-300) : kInfinity;
+}
+
 /// Quick, and so of nearly all that is not right before the eye.
 bool ObjectView::isRoundedUnseen(const Box& reach, const Box& bounds) const {
     const Vec3 eye(objectFromView_[3]);
@@ -295,23 +335,25 @@ double ObjectView::roundingPixels(const Box& reach, const Box& bounds) const {
     if (isRoundedUnseen(reach, bounds))
         return 0;
     const Corners corners = viewCorners(bounds, viewFromObject_);
-    return displacementPixels(view_, corners, distanceAtLeast(corners),
-                              kCornerRounding * farthest(viewCorners(reach, viewFromObject_)));
+    return roundedPixels(view_, corners, distanceAtLeast(corners),
+                         kCornerRounding * farthest(viewCorners(reach, viewFromObject_)));
 }
 
 double ObjectView::roundingPixels(std::span<const Vec3, 3> triangle) const {
     Box bounds;
-    std::array<Vec3, 3> corners;
-    for (std::size_t i = 0; i < 3; ++i) {
-        bounds.grow(triangle[i]);
-        corners[i] = viewPoint(triangle[i], viewFromObject_);
-    }
+    for (const Vec3& corner : triangle) bounds.grow(corner);
     if (isRoundedUnseen(bounds, bounds))
         return 0;
-    const std::span<const Vec3, 3> inView(corners);
-    const double distance =
-        std::max(distanceAtLeast(inView), distanceAtLeast(viewCorners(bounds, viewFromObject_)));
-    return displacementPixels(view_, inView, distance, kCornerRounding * farthest(corners));
+    const std::array<Vec3, 3> corners = inView(triangle, viewFromObject_);
+    return roundedPixels(view_, std::span(corners), distanceTo(corners),
+                         kCornerRounding * farthest(corners));
+}
+
+double ObjectView::displacedPixels(double errorMetres, std::span<const Vec3, 3> triangle,
+                                   double enoughPixels) const {
+    const std::array<Vec3, 3> corners = inView(triangle, viewFromObject_);
+    const double off = errorMetres * metresPerObjectUnit_ + kCornerRounding * farthest(corners);
+    return displacementPixels(view_, std::span(corners), distanceTo(corners), off, enoughPixels);
 }
 
 }  // namespace eyrie::lod

@@ -88,6 +88,9 @@ public:
     /// eye; 0 when nothing of them can be seen. For errors along z, such as terrain's,
     /// VerticalError is narrower. Proof: docs/errors.md#projection.
     double screenSpaceErrorPixels(double errorMetres, const fabric::Box& bounds) const;
+    /// No less than that, at a fraction of the time: from the box's distance alone, as if it were
+    /// at the picture's corner. Infinite where it would be above 16 pixels.
+    double looseErrorPixels(double errorMetres, const fabric::Box& bounds) const;
 
     /// What single precision makes of a surface, in pixels: an upper bound on how far what is seen
     /// of it in `bounds` is from where its corners say. `reach` holds all corners of the triangles
@@ -97,6 +100,13 @@ public:
     double roundingPixels(const fabric::Box& reach, const fabric::Box& bounds) const;
     /// The same of one triangle.
     double roundingPixels(std::span<const fabric::Vec3, 3> triangle) const;
+
+    /// Both of one triangle that is drawn with `errorMetres` of geometric error: how far what is
+    /// within that of it may be from where it is seen, in pixels. Where that is no more than
+    /// `enoughPixels`, any number up to that. Infinite only when the eye is about as near to it as
+    /// the error. Proof: docs/errors.md#corners-far-away.
+    double displacedPixels(double errorMetres, std::span<const fabric::Vec3, 3> triangle,
+                           double enoughPixels) const;
 
     const View& view() const { return view_; }
     const fabric::Mat4& viewFromObject() const { return viewFromObject_; }

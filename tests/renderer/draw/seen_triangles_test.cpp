@@ -2,18 +2,13 @@
 #include "renderer/draw/seen_triangles.h"
 
 #include <algorithm>
-#include <array>
 #include <random>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "renderer/import/mesh_synth.h"
-#include "renderer/import/pack_mesh.h"
-#include "renderer/mesh/node_geometry.h"
-#include "renderer/mesh/vertex_packing.h"
+#include "tests/renderer/draw/ball_of_blocks.h"
 
 namespace eyrie::draw {
 namespace {
@@ -24,17 +19,6 @@ constexpr int kHeight = 360;
 /// A ball of one node, looked at from somewhere.
 class SeenTrianglesTest : public testing::Test {
 protected:
-    SeenTrianglesTest() {
-        import::PackCounts counts;
-        mesh_ = import::packMesh(import::synthesizeMesh(20000, 5), counts).value();
-        const std::array<std::span<const mesh::Triangle>, 1> all{mesh_.triangles};
-        node_ = mesh::gatherNode(mesh_, all);
-        mesh::NodeGeometry geometry;
-        geometry.positions = node_.positions;
-        geometry.indices = node_.indices;
-        blocks_ = mesh::triangleBlocks(geometry);
-    }
-
     double unit() { return std::uniform_real_distribution<double>(-1, 1)(random_); }
     lod::View randomView() {
         fabric::Camera camera;
@@ -60,20 +44,16 @@ protected:
         const fabric::Range range;
         const lod::ObjectView objectView(view, fabric::Mat4(1));
         const FrameState frame{view, lights, shading, look, range, channel, channel};
-        return seenRuns(blocks_, mesh_.lattice, SeenBoxes(objectView, frame));
+        return seenRuns(ball_.blocks(), ball_.lattice(), SeenBoxes(objectView, frame));
     }
 
-    fabric::Vec3 corner(std::size_t index) const {
-        return mesh_.lattice.metres(mesh::unpackPosition(node_.positions[node_.indices[index]]));
-    }
-    std::size_t indices() const { return node_.indices.size(); }
+    fabric::Vec3 corner(std::size_t index) const { return ball_.corner(index); }
+    std::size_t indices() const { return ball_.indices(); }
 
     std::mt19937 random_{3};
 
 private:
-    mesh::PackedMesh mesh_;
-    mesh::PackedNode node_;
-    std::vector<mesh::TriangleBlock> blocks_;
+    BallOfBlocks ball_;
 };
 
 std::size_t countOf(const std::vector<SeenRun>& runs) {
