@@ -177,13 +177,17 @@ absl::StatusOr<std::optional<std::uint64_t>> partsOf(const std::vector<std::stri
     ASSIGN_OR_RETURN(const PlySize size, measureAll(paths));
     const std::uint64_t needed =
         importBytes(size.faces, size.vertices, size.fileBytes, options, size.isTextured);
-    if (needed <= options.memoryBytes)
+    if (needed + kProgramBytes <= options.memoryBytes)
+        return std::nullopt;
+    const std::uint64_t atOnce =
+        trianglesAtOnce(options.memoryBytes, size.faces, size.vertices, options);
+    // Where parts are no way to less, or lose something, the program itself does not count.
+    const bool mustBeWhole = options.pack.orients || size.isTextured || atOnce == 0;
+    if (needed <= options.memoryBytes && mustBeWhole)
         return std::nullopt;
     if (options.pack.orients)
         return exceedsMemory(nameOf(paths), needed, options,
                              "turning faces takes all of a mesh at once: leave that out");
-    const std::uint64_t atOnce =
-        trianglesAtOnce(options.memoryBytes, size.faces, size.vertices, options);
     if (atOnce == 0)
         return exceedsMemory(nameOf(paths), needed, options, "split the mesh");
     return atOnce;

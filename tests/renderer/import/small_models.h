@@ -18,5 +18,14 @@ inline constexpr const char* kTexturedObj =
 inline constexpr const char* kTexturedMtl =
     "newmtl tiles\nKd 0 0 0\nmap_Kd textures\\Tiles.tga\nnewmtl lost\nKd 1 0 0\nmap_Kd lost.png\n"
     "newmtl pane\nKd 0 0 1\nd 0.4\nnewmtl broken\nKd 0 1 0\nmap_Kd broken.png\n";
+/// Two triangles of two materials, the first of which has an image m_A.png, the second one that is
+/// not there.
+inline constexpr const char* kTexturedPly =
+    "ply\nformat ascii 1.0\ncomment TextureFile <this>_A.png\ncomment TextureFile lost.png\n"
+    "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+    "property uchar green\nproperty uchar blue\nelement face 2\n"
+    "property list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+    "property int texnumber\nend_header\n0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 255 0 0\n"
+    "1 1 0 255 0 0\n3 0 1 2 6 0 0 1 0 0 1 0\n3 2 1 3 6 0 1 1 0 1 1 1\n";
 
 }  // namespace eyrie::test

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Material files of OBJ.
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "renderer/import/mesh_reader.h"
+#include "tests/renderer/import/small_models.h"
+#include "tests/renderer/import/tga_text.h"
+#include "tests/renderer/mesh/temporary_folder.h"
+
+namespace eyrie::import {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(ObjMaterials, ReadsAnObjWithoutItsMaterials) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kObj);
+    const auto mesh = readMesh(folder.file("m.obj"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_EQ(mesh->triangles.size(), 1U);
+}
+
+TEST(ObjMaterials, NamesMaterialFilesThatAreMissing) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kObj);
+    const auto mesh = readMesh(folder.file("m.obj"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_TRUE(mesh->materials.empty());
+    EXPECT_THAT(mesh->notes, testing::ElementsAre(HasSubstr("1 of 1 material files are missing, "
+                                                            "and what they define is plain: "
+                                                            "'m.mtl'")));
+}
+
+/// The colour of kObj with another name for its material file, and what is said.
+fabric::Rgba colourWithLibrary(const test::TemporaryFolder& folder, const std::string& name,
+                               std::vector<std::string>& notes) {
+    std::string obj = test::kObj;
+    test::writeFile(folder.file("m.obj"), obj.replace(obj.find("m.mtl"), 5, name));
+    const auto mesh = readMesh(folder.file("m.obj"));
+    EXPECT_TRUE(mesh.ok()) << mesh.status();
+    notes = mesh.ok() ? mesh->notes : notes;
+    return mesh.ok() ? mesh->colours.at(0) : fabric::Rgba{};
+}
+
+TEST(ObjMaterials, TakesMaterialFilesWithNextToNothingInThem) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("a.obj"), "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    for (const char* content : {"", "\n", "# none\n", "# nothing\n", "newmtl\n"}) {
+        test::writeFile(folder.file("a.mtl"), content);
+        const auto mesh = readMesh(folder.file("a.obj"));
+        ASSERT_TRUE(mesh.ok()) << mesh.status();
+        EXPECT_EQ(mesh->triangles.size(), 1U);
+    }
+}
+
+TEST(ObjMaterials, FindsMaterialFilesAsItFindsTextures) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("a model.mtl"), test::kMtl);
+    for (const char* name : {"a model.mtl", "A Model.MTL", "a%20model.mtl", "a model.mtl ",
+                             "maps\\a model.mtl", "C:\\maps\\a model.mtl"}) {
+        std::vector<std::string> notes;
+        EXPECT_EQ(colourWithLibrary(folder, name, notes), (fabric::Rgba{255, 0, 0, 255})) << name;
+        EXPECT_THAT(notes, testing::IsEmpty()) << name;
+    }
+}
+
+TEST(ObjMaterials, TakesSeveralMaterialFilesOfALine) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("a model.mtl"), "newmtl a\nKd 1 0 0\n");
+    test::writeFile(folder.file("b.MTL"), "newmtl b\nKd 0 1 0\n");
+    test::writeFile(folder.file("m.obj"),
+                    "mtllib  a model.mtl  b.MTL \nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"
+                    "usemtl b\nf 1 2 3\n");
+    const std::vector<std::string> paths = {folder.file("m.obj")};
+    const auto mesh = readMesh(paths[0]);
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_THAT(mesh->notes, testing::IsEmpty());
+    EXPECT_EQ(mesh->colours[mesh->triangles[0][0]], (fabric::Rgba{255, 0, 0, 255}));
+    EXPECT_EQ(mesh->colours[mesh->triangles[1][0]], (fabric::Rgba{0, 255, 0, 255}));
+    const std::uint64_t before = *meshSourceHash(paths);
+    test::writeFile(folder.file("b.MTL"), "newmtl b\nKd 0 0 1\n");
+    EXPECT_NE(before, *meshSourceHash(paths));
+}
+
+TEST(ObjMaterials, TakesMaterialsHoweverTheirFileBegins) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    test::writeFile(folder.file("a.tga"), test::tgaOf(1, 1, {{9, 8, 7, 255}}));
+    for (const char* begin :
+         {"", "  ", "\t", "\xef\xbb\xbf ", "\n \r\n  ", "map_Kd b.tga\nKd 0 0 1\n"}) {
+        test::writeFile(folder.file("m.mtl"),
+                        std::string(begin) + "newmtl tiles\n  map_Kd a.tga\n  Kd 1 0 0\n");
+        const auto mesh = readMesh(folder.file("m.obj"));
+        ASSERT_TRUE(mesh.ok()) << begin << ": " << mesh.status();
+        EXPECT_EQ(mesh->images.size(), 1U) << begin;
+        EXPECT_EQ(mesh->colours[0], (fabric::Rgba{255, 0, 0, 255})) << begin;
+    }
+}
+
+TEST(ObjMaterials, TakesTheMaterialFileOfAnObjsOwnNameForOneThatIsMissingAndSaysSo) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.mtl"), test::kMtl);
+    std::vector<std::string> notes;
+    EXPECT_EQ(colourWithLibrary(folder, "lost.mtl", notes), (fabric::Rgba{255, 0, 0, 255}));
+    EXPECT_THAT(notes, testing::ElementsAre("1 of 1 material files are missing, and 'm.mtl' is "
+                                            "read in their place: 'lost.mtl'"));
+    const std::vector<std::string> paths = {folder.file("m.obj")};
+    const std::uint64_t red = *meshSourceHash(paths);
+    test::writeFile(folder.file("m.mtl"), "newmtl red\nKd 0 1 0\n");
+    EXPECT_NE(red, *meshSourceHash(paths));
+}
+
+TEST(ObjMaterials, ShowsTexturesOfAnObjInFullWhereNoColourIsGiven) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    test::writeFile(folder.file("a.tga"), test::tgaOf(1, 1, {{9, 8, 7, 255}}));
+    for (const auto& [kd, level] : {std::pair("", 255), {"Kd 0.2 0.2 0.2\n", 51}}) {
+        test::writeFile(folder.file("m.mtl"), std::string("newmtl tiles\r\nmap_Kd a.tga\r\n") + kd);
+        const auto mesh = readMesh(folder.file("m.obj"));
+        ASSERT_TRUE(mesh.ok()) << mesh.status();
+        EXPECT_EQ(mesh->images.size(), 1U);
+        const auto shown = static_cast<std::uint8_t>(level);
+        EXPECT_EQ(mesh->colours[0], (fabric::Rgba{shown, shown, shown, 255}));
+    }
+}
+
+TEST(ObjMaterials, CountsMaterialsThatNoFileDefines) {
+    const test::TemporaryFolder folder;
+    const auto notesOf = [&](const std::string& mtl) {
+        test::writeFile(folder.file("m.obj"),
+                        "# mtllib lost.mtl\nmtllib m.mtl\nv 0 0 0\nv 1 0 0\n"
+                        "v 0 1 0\nf 1 2 3\nusemtl a\nf 1 2 3\n"
+                        "usemtl my wall \nf 1 2 3\n");
+        test::writeFile(folder.file("m.mtl"), mtl);
+        return readMesh(folder.file("m.obj"))->notes;
+    };
+    EXPECT_THAT(notesOf("newmtl a\n"),
+                testing::ElementsAre("1 materials are used that no material file defines, and what "
+                                     "has them is plain: 'my wall'"));
+    for (const char* mtl :
+         {"newmtl a\nKd 1 0 0\nnewmtl my wall\n", "newmtl a\rKd 1 0 0\rnewmtl my wall\r",
+          "\xef\xbb\xbfnewmtl a\r\nKd 1 0 0\r\nnewmtl\tmy wall \r\n"})
+        EXPECT_THAT(notesOf(mtl), testing::IsEmpty()) << mtl;
+}
+
+}  // namespace
+}  // namespace eyrie::import
