@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/config/named.h"
 #include "coordinator/config/resolved.h"
 
 namespace eyrie::cli {
@@ -19,7 +20,8 @@ bool isPlain(char letter) {
            (letter >= '0' && letter <= '9') || letter == '-';
 }
 
-std::string called(const std::string& name, std::size_t position) {
+/// As a part of a file's name.
+std::string fileName(const std::string& name, std::size_t position) {
     if (name.empty())
         return fmt::format("{}", position);
     std::string plain;
@@ -53,10 +55,11 @@ std::vector<NamedPicture> allPictures(const config::Configuration& configuration
         const config::Canvas& canvas = configuration.canvases[i];
         for (std::size_t j = 0; j < canvas.segments.size(); ++j) {
             const config::Eyes eyes = eyesOf(resolved, i, j);
-            std::string name =
-                fmt::format("{}.{}", called(canvas.name, i), called(canvas.segments[j].name, j));
+            std::string name = fmt::format("{}.{}", fileName(canvas.name, i),
+                                           fileName(canvas.segments[j].name, j));
             while (!names.insert(name).second) name += "_";
-            const coordinator::Shown shown{fmt::format("{}", i), fmt::format("{}", j), {}, {}};
+            const coordinator::Shown shown{
+                config::positionName(i), config::positionName(j), {}, {}};
             if (eyes.cyclop)
                 pictures.push_back({name, shown});
             for (const auto& [isShown, eye, word] : {std::tuple(eyes.left, Eye::Left, "left"),

@@ -153,7 +153,7 @@ absl::StatusOr<std::vector<int>> renderersFor(const Options& options) {
     const ConfigOptions& config = options.pictures.config;
     std::vector<int> renderers = options.renderers;
     if (!config.file.empty()) {
-        ASSIGN_OR_RETURN(const auto configuration, configurationOf(config, true));
+        ASSIGN_OR_RETURN(const auto configuration, configurationOf(config, Told::Errors));
         std::ranges::replace(renderers, 0, renderersOf(*configuration));
     } else if (config.shown != coordinator::Shown{}) {
         std::ranges::replace(renderers, 0, 1);

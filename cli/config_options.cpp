@@ -50,6 +50,16 @@ absl::Status showLayout(const ConfigOptions& options, config::Configuration& con
     return absl::OkStatus();
 }
 
+void tellFindings(const config::Findings& findings, const std::string& file, Told told) {
+    using Kind = config::Finding::Kind;
+    if (findings.hasErrors())
+        return tellErrors(config::describe(findings, file));
+    if (told != Told::Errors)
+        tellWarnings(config::describe(findings, file, Kind::Warning, Kind::Warning));
+    if (told == Told::All)
+        tell(config::describe(findings, file, Kind::OnScreen, Kind::Note));
+}
+
 }  // namespace
 
 CLI::Option* addConfigFile(CLI::App& command, ConfigOptions& options) {
@@ -74,7 +84,9 @@ void addScreenOptions(CLI::App& command, ConfigOptions& options) {
         {"cyclop", Eye::Cyclop}, {"left", Eye::Left}, {"right", Eye::Right}};
     command
         .add_option("--canvas", options.shown.canvas,
-                    "Which of the configuration's canvases, by name or position [the first]")
+                    "Which of the configuration's canvases, by name or position (0, or #0 where "
+                    "another is named 0) "
+                    "[the first]")
         ->type_name("NAME");
     command
         .add_option("--segment", options.shown.segment,
@@ -99,6 +111,7 @@ void addShownOptions(CLI::App& command, ConfigOptions& options) {
         .add_option("--stereo", options.shown.stereo,
                     "How two eyes are put into one picture [as the configuration says]")
         ->transform(valueOf(kStereo))
+        ->excludes("--eye")
         ->type_name("anaglyph|side-by-side|top-bottom");
     command.add_flag("--one-channel", options.oneChannel,
                      "Draw each destination by its own channel, without compounds: what every "
@@ -106,7 +119,7 @@ void addShownOptions(CLI::App& command, ConfigOptions& options) {
 }
 
 absl::StatusOr<std::optional<config::Configuration>> configurationOf(const ConfigOptions& options,
-                                                                     bool quiet) {
+                                                                     Told told) {
     if (options.file.empty()) {
         if (!options.layout.empty() || options.oneChannel)
             return absl::InvalidArgumentError(
@@ -120,10 +133,7 @@ absl::StatusOr<std::optional<config::Configuration>> configurationOf(const Confi
         config::resolve(configuration, findings);
     if (!findings.hasErrors())
         compound::checkPlans(configuration, findings);
-    if (findings.hasErrors())
-        tellErrors(config::describe(findings, options.file));
-    else if (!quiet)
-        tell(config::describe(findings, options.file));
+    tellFindings(findings, options.file, told);
     if (findings.hasErrors())
         return absl::InvalidArgumentError(
             fmt::format("--config: {} has {} error{}; `eyrie check` explains it", options.file,

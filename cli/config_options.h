@@ -34,10 +34,18 @@ void addScreenOptions(CLI::App& command, ConfigOptions& options);
 /// Those, --stereo and --one-channel.
 void addShownOptions(CLI::App& command, ConfigOptions& options);
 
-/// The configuration that the file says; nothing without one. Warnings go to standard error unless
-/// `quiet`. Errors: those of reading the file; InvalidArgument, with all that is wrong with it.
+/// What is told, on standard error, of what is found in a file.
+enum class Told {
+    All,
+    Warnings,  ///< and errors, as --quiet asks
+    Errors     ///< the rest is told by whoever reads the file as well
+};
+inline Told toldOf(bool isQuiet) { return isQuiet ? Told::Warnings : Told::All; }
+
+/// The configuration that the file says; nothing without one. Errors: those of reading the file;
+/// InvalidArgument, with all that is wrong with it.
 absl::StatusOr<std::optional<config::Configuration>> configurationOf(const ConfigOptions& options,
-                                                                     bool quiet);
+                                                                     Told told);
 
 /// What settings of the configuration are kept for: where its file lies; empty without one.
 std::string configurationName(const ConfigOptions& options);

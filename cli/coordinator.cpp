@@ -55,7 +55,8 @@ absl::Status coordinate(const Options& options) {
     coordinator::CoordinatorOptions settings;
     settings.security = doors.security;
     settings.grpcAddresses = {options.grpc};
-    ASSIGN_OR_RETURN(settings.configuration, configurationOf(options.config, options.quiet));
+    ASSIGN_OR_RETURN(settings.configuration,
+                     configurationOf(options.config, toldOf(options.quiet)));
     settings.configurationFile = configurationName(options.config);
     settings.layout = compoundNames().at(options.config.compound);
     settings.dataFolder = options.data.folder;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -53,13 +54,13 @@ absl::StatusOr<std::vector<fabric::FlightKey>> framesFor(const FlightVideo& vide
 struct Drawn {
     double worstPixels = 0;
     std::size_t empty = 0;
-    std::string_view whyEmpty = {};  ///< coordinator::whyEmpty() of the last that is
+    std::string whyEmpty = {};  ///< coordinator::whyEmpty() of the last that is
     std::size_t incomplete = 0;
 
     void add(const coordinator::RenderedFrame& frame) {
         worstPixels = std::max(worstPixels, frame.statistics.tauAchievedPixels);
         incomplete += frame.statistics.complete ? 0 : 1;
-        if (const std::string_view why = coordinator::whyEmpty(frame); !why.empty()) {
+        if (const std::string why = coordinator::whyEmpty(frame); !why.empty()) {
             ++empty;
             whyEmpty = why;
         }

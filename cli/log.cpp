@@ -133,6 +133,8 @@ bool logsJson() { return current.isJson; }
 
 void tell(std::string_view lines) { tellLines(lines, spdlog::level::info); }
 
+void tellWarnings(std::string_view lines) { tellLines(lines, spdlog::level::warn); }
+
 void tellErrors(std::string_view lines) { tellLines(lines, spdlog::level::err); }
 
 void logFailure(const std::string& message) {

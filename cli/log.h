@@ -32,7 +32,10 @@ bool logsJson();
 /// JSON log.
 void tell(std::string_view lines);
 
-/// The same of what is wrong with its input.
+/// The same of what may be wrong with its input.
+void tellWarnings(std::string_view lines);
+
+/// The same of what is wrong with it.
 void tellErrors(std::string_view lines);
 
 /// The last words of a command that failed: an entry of a JSON log, "eyrie: …" for people.

@@ -56,7 +56,7 @@ absl::StatusOr<fabric::PickRequest> requestOf(const Options& options) {
 absl::StatusOr<fabric::SeenAreas> areasOf(const Options& options,
                                           const fabric::PickRequest& inPicture) {
     ASSIGN_OR_RETURN(const auto configuration,
-                     configurationOf(options.source.config, options.source.quiet));
+                     configurationOf(options.source.config, toldOf(options.source.quiet)));
     const bool isPlain = options.source.config.shown == coordinator::Shown{};
     if (!configuration && isPlain)
         return fabric::SeenAreas();
@@ -143,7 +143,8 @@ void addPick(CLI::App& app, Run& run) {
     addConfigFile(*command, options->source.config);
     addScreenOptions(*command, options->source.config);
     addCacheOptions(*command, options->source.drawing.cache);
-    command->add_flag("--quiet", options->source.quiet, "Only errors, beside the answer");
+    command->add_flag("--quiet", options->source.quiet,
+                      "Only warnings of --config and errors, beside the answer");
     command->add_flag("--json", options->json, "Print it as JSON; {} where nothing is");
     command->footer(
         "In double precision, in the finest data, with bounds on the error (docs/errors.md).\n"

@@ -84,7 +84,9 @@ absl::StatusOr<DrawnBands> drawInBands(
         RETURN_IF_ERROR(band.drawn.status());
         accumulateNext(drawn.statistics, band.drawn->statistics);
         drawn.device = band.drawn->device;
-        const std::string_view why = coordinator::whyEmpty(*band.drawn);
+        if (drawn.whyBlind.empty())
+            drawn.whyBlind = coordinator::whyBlind(*band.drawn);
+        const std::string why = coordinator::whyEmpty(*band.drawn);
         if (std::exchange(isFirst, false) || why.empty())
             drawn.whyEmpty = why;
         fabric::Image& rows = band.drawn->image;

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <string_view>
+#include <string>
 
 #include <absl/status/statusor.h>
 
@@ -24,7 +24,8 @@ struct DrawnBands {
     /// worst band's.
     fabric::FrameStatistics statistics;
     fabric::DeviceInfo device;
-    std::string_view whyEmpty = {};  ///< coordinator::whyEmpty() where no band shows anything
+    std::string whyEmpty = {};  ///< coordinator::whyEmpty() where no band shows anything
+    std::string whyBlind = {};  ///< why a part of one shows nothing
 };
 
 /// Draws what `request` asks for as bands of whole rows, from the top down, several at the same

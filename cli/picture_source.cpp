@@ -154,7 +154,7 @@ absl::StatusOr<RenderedFrame> PictureSource::drawLatest(const ChooseFrame& choos
 absl::StatusOr<std::unique_ptr<PictureSource>> PictureSource::open(
     const std::string& path, const PictureSourceOptions& options, const std::stop_token& stop) {
     quietLog();
-    ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, options.quiet));
+    ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, toldOf(options.quiet)));
     ASSIGN_OR_RETURN(fabric::Scene scene,
                      loadScene(std::span(&path, 1), options.drawing.cache, options.quiet, stop));
     // An eye beside the camera, or a canvas, is what only a configuration has.

@@ -150,6 +150,8 @@ absl::Status finish(Outputs& outputs, const DrawnBands& drawn, const Options& op
     RETURN_IF_ERROR(outputs.picture->commit());
     if (!drawn.whyEmpty.empty() && !options.pictures.quiet)
         tell(fmt::format("{}: {}", options.out, drawn.whyEmpty));
+    else if (!drawn.whyBlind.empty() && !options.pictures.quiet)
+        tell(fmt::format("{}: a part shows nothing: {}", options.out, drawn.whyBlind));
     if (options.json)
         fmt::print("{}\n", statistics);
     else if (!options.pictures.quiet)
@@ -168,7 +170,7 @@ absl::StatusOr<std::vector<NamedPicture>> picturesOf(const Options& options) {
         return absl::InvalidArgumentError(
             "--all is of a configuration, and of all that it shows: name one with --config, and "
             "leave out --canvas, --segment, --eye and --stereo");
-    ASSIGN_OR_RETURN(const auto configuration, configurationOf(config, true));
+    ASSIGN_OR_RETURN(const auto configuration, configurationOf(config, Told::Errors));
     std::vector<NamedPicture> pictures = allPictures(*configuration);
     if (pictures.empty())
         return absl::InvalidArgumentError("--all: the configuration shows nothing");
@@ -260,7 +262,7 @@ absl::Status renderAll(const Options& options) {
                      PictureSource::open(options.scene, options.pictures, stop.token()));
     lookAtAll(*pictures, options, request);
     ASSIGN_OR_RETURN(const coordinator::RenderedFrame frame, pictures->draw(request));
-    if (frame.further.size() + 1 != asked.size())
+    if (frame.further.size() + 1 != asked.size() || frame.pictures.size() != asked.size())
         return absl::InternalError(fmt::format("{} pictures were asked for, {} were drawn",
                                                asked.size(), frame.further.size() + 1));
     for (std::size_t i = 0; i < asked.size(); ++i) {
@@ -268,6 +270,9 @@ absl::Status renderAll(const Options& options) {
             write(i == 0 ? frame.image : frame.further[i - 1], own[i], request, stop.token()));
         if (!options.pictures.quiet && !options.json)
             tell(own[i].out);
+        if (!options.pictures.quiet && !frame.pictures[i].whyBlind.empty())
+            tell(fmt::format("{}: not all of it is seen: {}", own[i].out,
+                             frame.pictures[i].whyBlind));
     }
     const std::string statistics =
         wire::statisticsJson(frame.statistics, request.width, request.height, frame.device);
@@ -350,7 +355,7 @@ void addRender(CLI::App& app, Run& run) {
         ->add_option(
             "--flight", options->flight,
             "Draw a video of a flight instead, each picture in full: orbit, walkthrough, "
-            "or a file, JSON as the page saves it or a camera path (as for `eyrie bench`). "
+            "worst, or a file, JSON as the page saves it or a camera path (as for `eyrie bench`). "
             "Needs the module for video, which is built where libavcodec-dev and "
             "libavformat-dev are installed")
         ->type_name("NAME|FILE");

@@ -122,7 +122,8 @@ absl::StatusOr<coordinator::CoordinatorOptions> settingsOf(const Options& option
         settings.grpcReflection = options.grpcReflection;
         settings.security = doors.security;
     }
-    ASSIGN_OR_RETURN(settings.configuration, configurationOf(options.config, options.quiet));
+    ASSIGN_OR_RETURN(settings.configuration,
+                     configurationOf(options.config, toldOf(options.quiet)));
     settings.configurationFile = configurationName(options.config);
     settings.layout = compoundNames().at(options.config.compound);
     settings.dataFolder = options.data.folder;

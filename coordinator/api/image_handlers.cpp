@@ -216,8 +216,8 @@ absl::StatusOr<v1::RenderImageResponse> Painter::render(const v1::RenderImageReq
     if (call.stop.stop_requested())
         return absl::CancelledError("the caller has gone");
     statistics_.drawn("", frame);
-    if (const std::string_view why = coordinator::whyEmpty(frame); !why.empty())
-        return absl::FailedPreconditionError(std::string(why));
+    if (const std::string why = coordinator::whyEmpty(frame); !why.empty())
+        return absl::FailedPreconditionError(why);
     v1::RenderImageResponse response;
     ASSIGN_OR_RETURN(*response.mutable_image(), encoded(frame.image, request));
     response.set_format(request.format() == v1::IMAGE_FORMAT_UNSPECIFIED ? v1::IMAGE_FORMAT_PNG

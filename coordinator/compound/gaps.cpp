@@ -51,7 +51,18 @@ void warnOfGaps(const config::ResolvedConfiguration& resolved, const WorkList& l
             for (const PicturePart& part : *parts) {
                 const std::size_t destination = list.framebuffers[part.framebuffer].destination;
                 const Contents& there = contents[part.framebuffer];
-                if (there.all().empty() || list.blind.contains(destination))
+                if (const auto blind = list.blind.find(destination); blind != list.blind.end()) {
+                    // An eye moves before its wall; what cannot be drawn is so wherever it is.
+                    const auto& [why, place] = blind->second;
+                    if (absl::IsInvalidArgument(why))
+                        findings.warning(place,
+                                         fmt::format("{}: {}",
+                                                     there.all().empty() ? "nothing is shown"
+                                                                         : "a part shows nothing",
+                                                     std::string(why.message())));
+                    continue;
+                }
+                if (there.all().empty())
                     continue;
                 const std::vector<Gap> gaps = there.gaps(part.part);
                 if (!gaps.empty())

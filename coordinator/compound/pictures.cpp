@@ -139,11 +139,11 @@ std::optional<Pass> passThroughGlass(const config::ResolvedConfiguration& resolv
     const fabric::PixelViewport place = placeOf(destination, output);
     const bool isElsewhere =
         std::ranges::any_of(resolved.destinations, [&](const Destination& other) {
-            return isPartOf(other, output) && passFor(other, eye) &&
+            return isPartOf(other, output) && passFor(other, output, eye) &&
                    !intersection(placeOf(other, output), place).isEmpty();
         });
     return isElsewhere ? std::nullopt
-                       : passFor(destination, eye == Eye::Left ? Eye::Right : Eye::Left);
+                       : passFor(destination, output, eye == Eye::Left ? Eye::Right : Eye::Left);
 }
 
 /// The destinations of an output, in one eye's picture.
@@ -155,7 +155,7 @@ std::vector<PicturePart> partsOf(const config::ResolvedConfiguration& resolved,
         const Destination& each = resolved.destinations[i];
         if (!isPartOf(each, output))
             continue;
-        std::optional<Pass> pass = passFor(each, eye);
+        std::optional<Pass> pass = passFor(each, output, eye);
         if (!pass && picture.stereo == Stereo::Anaglyph)
             pass = passThroughGlass(resolved, output, each, eye);
         const fabric::PixelViewport place = placeOf(each, output);
@@ -179,14 +179,15 @@ bool isPartOf(const Destination& destination, const Output& output) {
            (!output.segment || destination.index.segment == *output.segment);
 }
 
-std::optional<Pass> passFor(const Destination& destination, Eye eye) {
+std::optional<Pass> passFor(const Destination& destination, const Output& output, Eye eye) {
     const config::Eyes& shown = destination.eyes;
     if (eye == Eye::Left && shown.left)
         return Pass{Eye::Left, Eye::Left};
     if (eye == Eye::Right && shown.right)
         return Pass{Eye::Right, Eye::Right};
+    const bool isAskedFor = output.eye || output.stereo != Stereo::Configured;
     if (shown.cyclop)
-        return Pass{Eye::Cyclop, eye};
+        return Pass{Eye::Cyclop, isAskedFor ? eye : Eye::Cyclop};
     if (eye != Eye::Cyclop)
         return std::nullopt;  // the segment is the other eye's
     if (shown.left)

@@ -18,8 +18,9 @@ struct ShownEyes {
 ShownEyes shownEyes(const config::Configuration& configuration,
                     const config::ResolvedConfiguration& resolved, const Output& output);
 
-/// The pass in which a destination's picture for an eye comes to be; nothing where it shows none.
-std::optional<Pass> passFor(const config::Destination& destination, Eye eye);
+/// The pass in which a destination's picture for an eye of an output comes to be; nothing where it
+/// shows none. Of a view without stereo both eyes see the same, unless eyes are asked for.
+std::optional<Pass> passFor(const config::Destination& destination, const Output& output, Eye eye);
 
 bool isPartOf(const config::Destination& destination, const Output& output);
 

@@ -96,7 +96,7 @@ std::vector<Pass> passesFor(const config::Configuration& configuration,
     for (const Output& output : request.outputs)
         for (const Eye eye : shownEyes(configuration, resolved, output).eyes)
             for (const config::Destination& destination : resolved.destinations) {
-                const auto pass = passFor(destination, eye);
+                const auto pass = passFor(destination, output, eye);
                 if (isPartOf(destination, output) && pass &&
                     std::ranges::find(passes, *pass) == passes.end())
                     passes.push_back(*pass);
@@ -111,7 +111,7 @@ void checkEye(const config::ResolvedConfiguration& resolved, const Output& outpu
     for (const config::Destination& each : resolved.destinations) {
         if (!isPartOf(each, output))
             continue;
-        if (!output.eye || passFor(each, *output.eye))
+        if (!output.eye || passFor(each, output, *output.eye))
             return;
         showsAnything = true;
     }
@@ -184,12 +184,17 @@ std::optional<Plan> makePlan(const config::Configuration& configuration, const P
     plan.queues = std::move(list.queues);
     for (const WorkingBuffer& each : list.framebuffers)
         plan.framebuffers.push_back(each.framebuffer);
-    plan.blind =
-        static_cast<std::size_t>(std::ranges::count_if(list.blind, [&](std::size_t destination) {
-            return std::ranges::any_of(request.outputs, [&](const Output& output) {
-                return isPartOf(shown.destinations[destination], output);
-            });
-        }));
+    for (const auto& [destination, blind] : list.blind) {
+        bool isAskedFor = false;
+        for (Picture& picture : plan.pictures) {
+            if (!isPartOf(shown.destinations[destination], request.outputs[picture.output]))
+                continue;
+            isAskedFor = true;
+            if (picture.whyBlind.empty())
+                picture.whyBlind = std::string(blind.why.message());
+        }
+        plan.blind += isAskedFor ? 1 : 0;
+    }
     keepWhatIsNeeded(plan);
     return plan;
 }

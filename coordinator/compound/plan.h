@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -156,6 +157,8 @@ struct Picture {
     Stereo stereo = Stereo::Separate;  ///< how two eyes are put together; Separate: one eye
     std::vector<PicturePart> parts;    ///< of that eye, or the left; later ones lie above
     std::vector<PicturePart> right;    ///< empty where there is one eye
+    /// Why a part of it shows nothing, for a person to read; empty where all does.
+    std::string whyBlind;
     /// By which sights it is seen. Of two eyes in the same place, the left one's.
     fabric::SeenAreas seen;
     config::ColourMask leftMask{true, false, false};
@@ -170,7 +173,8 @@ struct Plan {
     std::vector<Picture> pictures;
     /// Channels that take tiles or chunks of one queue, each when it is free.
     std::vector<std::vector<config::ChannelIndex>> queues;
-    /// Parts of pictures that show nothing, since an eye is not before the wall there.
+    /// Parts of pictures that show nothing, since an eye is not before the wall there, or sees
+    /// through it what renderers cannot draw.
     std::size_t blind = 0;
     /// Of PlanRequest::looksForGaps: warnings of parts of pictures that nobody draws.
     config::Findings gaps;

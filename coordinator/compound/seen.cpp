@@ -8,6 +8,7 @@
 
 #include "coordinator/config/destinations.h"
 #include "coordinator/config/pixels.h"
+#include "fabric/status.h"
 
 namespace eyrie::compound {
 namespace {
@@ -47,21 +48,14 @@ const Vec3& placeOf(Eye eye, const config::EyePlaces& places) {
     return places.cyclop;
 }
 
-/// Renderers draw nothing that is wider, at unit distance; an eye in its wall would ask for it.
-constexpr double kWidestFrustum = 1e4;
-
-bool canBeDrawn(const fabric::Frustum& frustum) {
-    for (const double side : {frustum.left, frustum.right, frustum.bottom, frustum.top})
-        if (!(std::abs(side) < kWidestFrustum / 2))
-            return false;
-    return true;
-}
-
-Seen through(const config::Wall& wall, const Vec3& eye) {
+absl::StatusOr<std::optional<fabric::Sight>> through(const config::Wall& wall, const Vec3& eye) {
     const auto sight = config::sightThrough(wall, eye);
-    if (!sight || !canBeDrawn(sight->frustum))
-        return {false, std::nullopt};
-    return {true, sight};
+    if (!sight)
+        return absl::FailedPreconditionError(
+            "the eye is not before the wall that it is to look through");
+    RETURN_IF_ERROR(fabric::withContext(fabric::validate(*sight),
+                                        "the eye sees what cannot be drawn through its wall"));
+    return sight;
 }
 
 /// Straight ahead at the focus, as large as the camera's field of view is there.
@@ -121,15 +115,17 @@ double focusRatio(const config::Configuration& configuration, const config::Disp
     return ratio > 0 ? ratio : 1;
 }
 
-Seen seen(const config::Configuration& configuration, const PlanRequest& request,
-          const config::Destination& destination, const Surroundings& surroundings, Eye eye,
-          double focusRatio) {
+absl::StatusOr<std::optional<fabric::Sight>> seen(const config::Configuration& configuration,
+                                                  const PlanRequest& request,
+                                                  const config::Destination& destination,
+                                                  const Surroundings& surroundings, Eye eye,
+                                                  double focusRatio) {
     const config::View& view = viewOf(configuration, destination);
     const config::EyePlaces places = config::eyePlaces(configuration, view);
     const double unit = request.display.modelUnit(destination.index.layout, destination.index.view);
     if (!surroundings.wall) {
         if (eye == Eye::Cyclop)
-            return {};
+            return std::nullopt;
         const config::Observer* const observer = observerOf(configuration, view);
         const double focus = observer != nullptr ? observer->focusDistance : 1;
         const config::Wall wall = wallAhead(focus * unit, request.fovYDegrees, surroundings.whole);

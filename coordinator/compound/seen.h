@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include <absl/status/statusor.h>
+
 #include "coordinator/compound/plan.h"
 
 /// What the views of a configuration show: through which walls, from where.
@@ -25,13 +27,13 @@ double focusRatio(const config::Configuration& configuration, const config::Disp
                   const config::ResolvedConfiguration& resolved,
                   const config::Destination& destination);
 
-/// What an eye sees of the whole of `surroundings`.
-struct Seen {
-    bool isBeforeTheWall = true;         ///< otherwise nothing is seen
-    std::optional<fabric::Sight> sight;  ///< nothing: the camera's own
-};
-Seen seen(const config::Configuration& configuration, const PlanRequest& request,
-          const config::Destination& destination, const Surroundings& surroundings, Eye eye,
-          double focusRatio);
+/// What an eye sees of the whole of `surroundings`; nothing: the camera's own view. Errors, for a
+/// person to read: FailedPrecondition where the eye is not before the wall, InvalidArgument where
+/// renderers cannot draw what it sees there.
+absl::StatusOr<std::optional<fabric::Sight>> seen(const config::Configuration& configuration,
+                                                  const PlanRequest& request,
+                                                  const config::Destination& destination,
+                                                  const Surroundings& surroundings, Eye eye,
+                                                  double focusRatio);
 
 }  // namespace eyrie::compound

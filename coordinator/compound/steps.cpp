@@ -110,8 +110,7 @@ private:
             list_.framebuffers.back().framebuffer.isDestination = false;
             contents_.emplace_back();
             assembleAll(inputs, work, sample);
-            for (const Input& each : inputs)
-                hasDepth = hasDepth && list_.frames[each.frame].hasDepth;
+            for (const Input& each : inputs) hasDepth = hasDepth && isByDepth(each);
             mean.samples.push_back(sample);
         }
         const Content content = meanOf(mean.samples);
@@ -144,6 +143,10 @@ private:
         return content;
     }
 
+    bool isByDepth(const Input& input) const {
+        return list_.frames[input.frame].hasDepth && input.withDepth;
+    }
+
     const Lattice& latticeOf(std::size_t framebuffer) const {
         return list_.framebuffers[framebuffer].lattice;
     }
@@ -154,6 +157,7 @@ private:
         FrameMapping mapping;
         Content content;
         bool isBelow;  ///< its data comes before what is there, whatever it meets
+        bool hasDepth;
         std::optional<PixelViewport> within = {};  ///< as Assemble::within
     };
 
@@ -178,7 +182,8 @@ private:
             }
             const auto met = contents_[framebuffer].met(content);
             const bool isBelow = met && content.range.begin < met->begin;
-            incoming.push_back({index, *std::move(mapping), content, isBelow, within});
+            incoming.push_back(
+                {index, *std::move(mapping), content, isBelow, isByDepth(input), within});
         }
         sortByRange(incoming);
         for (const Incoming& each : incoming) assembleOne(each, framebuffer);
@@ -209,9 +214,9 @@ private:
 
     /// Away from what is there, so that what is there always has a range without gaps: those below
     /// it downwards, those above it upwards. Those without depth overwrite the others, as written.
-    void sortByRange(std::vector<Incoming>& incoming) const {
-        const auto rank = [&](const Incoming& each) {
-            if (!list_.frames[each.frame].hasDepth)
+    static void sortByRange(std::vector<Incoming>& incoming) {
+        const auto rank = [](const Incoming& each) {
+            if (!each.hasDepth)
                 return 2;
             return each.isBelow ? 0 : 1;
         };
@@ -225,7 +230,7 @@ private:
     }
 
     void assembleOne(const Incoming& incoming, std::size_t framebuffer) {
-        const auto& [index, mapping, content, isBelow, within] = incoming;
+        const auto& [index, mapping, content, isBelow, hasDepth, within] = incoming;
         const OutputFrame& frame = list_.frames[index];
         const Contents& source = frames_[index];
         Contents& target = contents_[framebuffer];
@@ -233,7 +238,7 @@ private:
         // What was moved shows other things than what it meets.
         const bool isComplete = met && !within && contains(content.range, *met) &&
                                 source.cover(frame.part, content.range);
-        const Combine combine = combineWith(met, content, isComplete, frame.hasDepth);
+        const Combine combine = combineWith(met, content, isComplete, hasDepth);
         if (content.area.isEmpty() || (source.all().empty() && combine != Combine::Replace))
             return;
         Assemble step{index,         framebuffer,   partOf(frame), mapping.regriddings,

@@ -216,11 +216,11 @@ private:
         const ResolvedCompound& own = resolved_.compounds[index];
         const config::Destination& destination = resolved_.destinations[*own.destination];
         const Surroundings surroundings = surroundingsOf(destination, own.wall);
-        const Seen what =
+        const absl::StatusOr<std::optional<fabric::Sight>> sight =
             seen(configuration_, request_, destination, surroundings, pass_.sight,
                  focusRatio(configuration_, request_.display, resolved_, destination));
-        if (!what.isBeforeTheWall) {
-            list_.blind.insert(*own.destination);
+        if (!sight.ok()) {
+            list_.blind.try_emplace(*own.destination, Blind{sight.status(), own.place()});
             return;
         }
         fabric::ChannelTask task;
@@ -229,13 +229,14 @@ private:
         task.viewHeight = surroundings.whole.height;
         task.pixelViewport = areaOnFramebuffer(own);
         task.range = own.range;
-        task.sight = what.sight;
+        task.sight = *sight;
         const Lattice& lattice = list_.framebuffers[framebuffer].lattice;
         if (lattice != Lattice{})
             task.raster = rasterAfter(surroundings.whole, lattice.regriddings,
                                       jitter(lattice.subpixel.index, lattice.subpixel.count));
         if (!isDrawable(own, task.viewWidth, task.viewHeight) ||
-            (task.raster && !isDrawable(own, task.raster->width, task.raster->height)))
+            (task.raster && !isDrawable(own, task.raster->width, task.raster->height)) ||
+            !isWithinView(own, task))
             return;
         const QueueShare* const share = shareOf(index);
         if (share == nullptr)
@@ -251,6 +252,21 @@ private:
         add(Work::Kind::Draw, draw.compound, draw.framebuffer, draw.task.pixelViewport).draw =
             list_.draws.size();
         list_.draws.push_back(draw);
+    }
+
+    /// Where every nth pixel is drawn at a zoom beyond n the first are outside the view.
+    bool isWithinView(const ResolvedCompound& own, const fabric::ChannelTask& task) {
+        if (!task.raster)
+            return true;
+        const absl::Status status = fabric::validate(*task.raster, task.viewWidth, task.viewHeight);
+        if (!status.ok())
+            list_.refusals.impossible.error(
+                own.place(),
+                fmt::format(
+                    "what the compound's pixel, subpixel and zoom together make of its view "
+                    "reaches beyond that: {}; zoom less, or where they are put together",
+                    std::string(status.message())));
+        return status.ok();
     }
 
     bool isDrawable(const ResolvedCompound& own, std::int32_t width, std::int32_t height) {
@@ -281,7 +297,9 @@ private:
         if (own.tasks.readback)
             for (const config::ResolvedFrame& frame : own.outputFrames)
                 addFrames(index, frame, *level.framebuffer, area);
-        if (own.outputFrames.empty())
+        const bool isWithinAnother = std::ranges::any_of(
+            levels_, [](const Level& above) { return above.framebuffer.has_value(); });
+        if (own.outputFrames.empty() || !isWithinAnother)
             give(index, level, area);
     }
 
@@ -316,8 +334,8 @@ private:
         list_.frames.push_back(frame);
     }
 
-    /// What a compound makes in other pixels on the channel of one that it is part of is brought
-    /// into that one's, as if there were a frame.
+    /// What a compound makes in other pixels on the channel of one that it is part of, or of the
+    /// destination, is brought into that one's, as if there were a frame.
     void give(std::size_t index, const Level& done, const PixelViewport& area) {
         const ResolvedCompound& own = resolved_.compounds[index];
         const std::size_t framebuffer = *done.framebuffer;
@@ -367,9 +385,9 @@ private:
                 continue;
             Work& work = list_.works[waiting.work];
             for (const std::size_t each : named->second.frames) {
-                if (frame.frame->buffers && !frame.frame->buffers->depth)
-                    list_.frames[each].hasDepth = false;
-                work.inputs.push_back({each, placingOf(*frame.frame, work.part), frame.frame});
+                const bool withDepth = !frame.frame->buffers || frame.frame->buffers->depth;
+                work.inputs.push_back(
+                    {each, placingOf(*frame.frame, work.part), frame.frame, withDepth});
             }
         }
     }

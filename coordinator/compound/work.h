@@ -4,9 +4,10 @@
 #include <cstddef>
 #include <map>
 #include <optional>
-#include <set>
 #include <tuple>
 #include <vector>
+
+#include <absl/status/status.h>
 
 #include "coordinator/compound/plan.h"
 
@@ -60,6 +61,7 @@ struct Input {
     std::size_t frame = 0;  ///< in WorkList::frames
     std::optional<Placing> placing = {};
     const config::Frame* written = nullptr;  ///< null: given by a child, without a name
+    bool withDepth = true;                   ///< by depth, where the frame has any
 };
 
 /// One task of a compound.
@@ -74,6 +76,12 @@ struct Work {
     std::vector<Input> inputs;  ///< Assemble
 };
 
+/// Where an eye sees nothing.
+struct Blind {
+    absl::Status why;
+    config::Place place;  ///< of the compound that would draw it
+};
+
 struct WorkList {
     explicit WorkList(Refusals& whatCannotBe) : refusals(whatCannotBe) {}
 
@@ -82,7 +90,7 @@ struct WorkList {
     std::vector<PlannedDraw> draws;
     std::vector<Work> works;
     std::vector<std::vector<config::ChannelIndex>> queues;
-    std::set<std::size_t> blind;  ///< destinations whose wall an eye is not before
+    std::map<std::size_t, Blind> blind;  ///< destinations, of the first compound
     Refusals& refusals;
 
     /// The framebuffer in which a destination's picture comes to be; made where there is none yet.

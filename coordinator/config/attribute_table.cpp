@@ -303,10 +303,12 @@ void read(const Statement& statement, const Known& known, ValueReader& reader,
     if (!known.why.empty() && !isAsItIs(known, attribute))
         reader.hasNoEffect(statement, known.why, known.kind);
     const auto before = std::ranges::find(attributes, attribute.name, &Attribute::name);
-    if (before == attributes.end())
+    if (before == attributes.end()) {
         attributes.push_back(std::move(attribute));
-    else
+    } else {
+        reader.givenAgain(statement);
         *before = std::move(attribute);
+    }
 }
 
 }  // namespace

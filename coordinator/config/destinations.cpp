@@ -68,7 +68,8 @@ PixelSize nearest(double width, double height) {
     return {whole(width), whole(height)};
 }
 
-double aspect(double width, double height) { return height > 0 ? width / height : 1; }
+/// 1 of what has no pixels.
+double aspect(double width, double height) { return width > 0 && height > 0 ? width / height : 1; }
 
 /// The segments of a canvas in pixels.
 class CanvasPixels {

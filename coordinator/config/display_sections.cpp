@@ -42,7 +42,8 @@ View readView(const Statement& block, const Configuration& before, ValueReader& 
          {"DisplayCluster",  // as older versions wrote it
           [&](const auto& each) {
               readAttribute(each, AttributeScope::View, reader, view.attributes);
-          }},
+          },
+          true},
          {"attributes", [&](const auto& each) {
               readAttributes(each, AttributeScope::View, reader, view.attributes);
           }}});
@@ -134,8 +135,8 @@ SwapBarrier readSwapBarrier(const Statement& block, ValueReader& reader) {
     };
     reader.block(block, "a swapbarrier",
                  {{"name", [&](const auto& each) { reader.text(each, barrier.name); }},
-                  {"NV_group", setting},
-                  {"NV_barrier", setting}});
+                  {"NV_group", setting, true},
+                  {"NV_barrier", setting, true}});
     return barrier;
 }
 
@@ -197,7 +198,7 @@ Canvas readCanvas(const Statement& block, const Configuration& before, ValueRead
     reader.block(
         block, "a canvas",
         {{"name", [&](const auto& each) { reader.text(each, canvas.name); }},
-         {"layout", [&](const auto& each) { addLayout(each, before, reader, canvas); }},
+         {"layout", [&](const auto& each) { addLayout(each, before, reader, canvas); }, true},
          {"wall", [&](const auto& each) { canvas.surface = readWall(each, reader); }},
          {"projection", [&](const auto& each) { canvas.surface = readProjection(each, reader); }},
          {"swapbarrier",

@@ -88,14 +88,18 @@ Entry modeEntry(ValueReader& reader, Equalizer& equalizer) {
     return {"mode", [&](const Statement& each) { splitMode(each, reader, equalizer.mode); }};
 }
 Entry boundaryEntry(ValueReader& reader, Equalizer& equalizer) {
-    return {"boundary", [&](const Statement& each) {
+    return {"boundary",
+            [&](const Statement& each) {
                 pixelsOrRange(each, reader, equalizer.boundaryPixels, equalizer.boundaryRange);
-            }};
+            },
+            true};  // in pixels, and in shares of the range
 }
 Entry resistanceEntry(ValueReader& reader, Equalizer& equalizer) {
-    return {"resistance", [&](const Statement& each) {
+    return {"resistance",
+            [&](const Statement& each) {
                 pixelsOrRange(each, reader, equalizer.resistancePixels, equalizer.resistanceRange);
-            }};
+            },
+            true};
 }
 Entry limitEntry(ValueReader& reader, Equalizer& equalizer) {
     return {"assemble_only_limit", [&](const Statement& each) {

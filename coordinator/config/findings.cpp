@@ -52,11 +52,14 @@ std::string describe(const Place& place) {
     return fmt::format("{}:{}", place.line, place.column);
 }
 
-std::string describe(const Findings& findings, const std::string& name) {
+std::string describe(const Findings& findings, const std::string& name, Finding::Kind first,
+                     Finding::Kind last) {
     std::string text;
     std::vector<Finding> alike;
     std::vector<std::size_t> places;
     for (const Finding& finding : findings.all()) {
+        if (finding.kind < first || finding.kind > last)
+            continue;
         if (hasPlaceOfItsOwn(finding)) {
             text += line(finding, name, 1);
             continue;
@@ -71,7 +74,7 @@ std::string describe(const Findings& findings, const std::string& name) {
         }
     }
     for (std::size_t i = 0; i < alike.size(); ++i) text += line(alike[i], name, places[i]);
-    if (findings.errors() > Findings::kMost)
+    if (first == Finding::Kind::Error && findings.errors() > Findings::kMost)
         text += fmt::format("{}: and {} errors more\n", name, findings.errors() - Findings::kMost);
     return text;
 }

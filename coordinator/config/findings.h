@@ -21,6 +21,7 @@ struct Place {
 };
 
 struct Finding {
+    /// The gravest first.
     enum class Kind {
         Error,     ///< the configuration cannot be used
         Warning,   ///< something in it has no effect, or not the one that was probably meant
@@ -68,7 +69,9 @@ private:
 std::string describe(const Place& place);
 
 /// "12:5: error: …", a line each, after `name` and a colon. What has no effect here comes last,
-/// once for all places where the same is said.
-std::string describe(const Findings& findings, const std::string& name);
+/// once for all places where the same is said. Only of the kinds from the first to the last.
+std::string describe(const Findings& findings, const std::string& name,
+                     Finding::Kind first = Finding::Kind::Error,
+                     Finding::Kind last = Finding::Kind::Note);
 
 }  // namespace eyrie::config

@@ -22,12 +22,18 @@ std::string namesOf(const std::vector<T>& things) {
     return names.empty() ? "none" : names;
 }
 
+/// "#2": the position 2, whatever is called so.
+inline std::string positionName(std::size_t index) { return fmt::format("#{}", index); }
+
 /// The position of the first that is called `name`, or of that whose position is so written: a name
-/// comes before a position, so that what is called "1" is found by it. NotFound, with the names
-/// that there are; `what` says of what kind.
+/// comes before a position, so that what is called "1" is found by it; "#1" is always a position.
+/// NotFound, with the names that there are; `what` says of what kind.
 template <typename T>
 absl::StatusOr<std::size_t> findNamed(const std::vector<T>& things, std::string_view what,
                                       std::string_view name) {
+    for (std::size_t i = 0; i < things.size(); ++i)
+        if (name == positionName(i))
+            return i;
     const auto named = name.empty() ? things.end() : std::ranges::find(things, name, &T::name);
     if (named != things.end())
         return static_cast<std::size_t>(named - things.begin());
@@ -38,14 +44,15 @@ absl::StatusOr<std::size_t> findNamed(const std::vector<T>& things, std::string_
         fmt::format("no {} is called \"{}\"; there are {}", what, name, namesOf(things)));
 }
 
-/// What findNamed finds a thing by: its name, where it is the first so called; else its position.
+/// What findNamed finds a thing by: its name, where that leads to it; else its position.
 template <typename T>
 std::string called(const std::vector<T>& things, std::size_t index) {
-    const std::string& name = things[index].name;
-    for (std::size_t i = 0; i < index; ++i)
-        if (things[i].name == name)
-            return fmt::format("{}", index);
-    return name.empty() ? fmt::format("{}", index) : name;
+    for (const std::string& name : {things[index].name, fmt::format("{}", index)}) {
+        const absl::StatusOr<std::size_t> found = findNamed(things, "", name);
+        if (found.ok() && *found == index)
+            return name;
+    }
+    return positionName(index);
 }
 
 }  // namespace eyrie::config

@@ -59,7 +59,8 @@ fabric::PixelViewport partWithin(const fabric::PixelViewport& whole, const Viewp
 
 fabric::PixelViewport zoomed(const fabric::PixelViewport& whole, const fabric::Vec2& zoom) {
     const auto scaled = [](std::int32_t pixels, double by) {
-        return static_cast<std::int32_t>(std::clamp(pixels * by + .5, 0.0, 65536.0));
+        const double least = pixels > 0 ? 1 : 0;
+        return static_cast<std::int32_t>(std::clamp(pixels * by + .5, least, 65536.0));
     };
     return {whole.x, whole.y, scaled(whole.width, zoom.x), scaled(whole.height, zoom.y)};
 }
@@ -165,9 +166,9 @@ private:
             const fabric::PixelViewport whole = own.pixelViewport;
             own.pixelViewport = partWithin(whole, compound.viewport);
             own.area = partWithin(own.area, compound.viewport);
-            own.viewport =
-                config::part(own.viewport, whole.isEmpty() ? compound.viewport
-                                                           : fractionOf(own.pixelViewport, whole));
+            own.viewport = config::part(own.viewport, own.pixelViewport.isEmpty()
+                                                          ? compound.viewport
+                                                          : fractionOf(own.pixelViewport, whole));
         }
         own.range = part(own.range, compound.range);
         takeShares(compound, own);

@@ -173,9 +173,11 @@ absl::Status setView(const Configuration& configuration, ConfigurationState& sta
     ASSIGN_OR_RETURN(const std::size_t of, findNamed(configuration.layouts, "layout", layout));
     ASSIGN_OR_RETURN(const std::size_t index,
                      findNamed(configuration.layouts[of].views, "view", view));
-    if (!(settings.modelUnit > 0 && std::isfinite(settings.modelUnit)))
+    if (!(settings.modelUnit >= kLeastModelUnit && settings.modelUnit <= kMostModelUnit))
         return absl::InvalidArgumentError(
-            fmt::format("the model unit is {}; it must be above 0", settings.modelUnit));
+            fmt::format("the model unit is {}; it must be from {:g} "
+                        "to {:g}",
+                        settings.modelUnit, kLeastModelUnit, kMostModelUnit));
     if (settings.surface)
         RETURN_IF_ERROR(check(*settings.surface));
     state.views[of][index] = settings;

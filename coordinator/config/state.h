@@ -17,11 +17,15 @@
 /// positions from 0 on; errors are NotFound, with the names that there are, and InvalidArgument.
 namespace eyrie::config {
 
+/// What a metre of the room may stand for: from an atom to the Sun.
+inline constexpr double kLeastModelUnit = 1e-9;
+inline constexpr double kMostModelUnit = 1e9;
+
 /// Of a view; what is absent is as configured.
 struct ViewState {
     std::optional<bool> isStereo;
     std::optional<StereoMode> stereoMode;  ///< how both eyes are shown in one picture
-    double modelUnit = 1;                  ///< metres of the scene for one of the room; above 0
+    double modelUnit = 1;                  ///< metres of the scene for one of the room
     std::optional<Surface> surface;
 
     bool operator==(const ViewState&) const = default;

@@ -59,10 +59,13 @@ absl::Status readEnum(int number, int most, std::string_view field, std::optiona
     return absl::OkStatus();
 }
 
+/// `field`: what errors call the list.
 template <typename Messages>
-absl::Status changeAll(const Messages& messages, const Configuration& configuration,
-                       ConfigurationState& state) {
-    for (const auto& each : messages) RETURN_IF_ERROR(change(each, configuration, state));
+absl::Status changeAll(const Messages& messages, std::string_view field,
+                       const Configuration& configuration, ConfigurationState& state) {
+    for (int i = 0; i < messages.size(); ++i)
+        RETURN_IF_ERROR(fabric::withContext(change(messages[i], configuration, state),
+                                            fmt::format("{}[{}]", field, i)));
     return absl::OkStatus();
 }
 
@@ -261,11 +264,11 @@ absl::Status change(const v1::ObserverSetting& message, const Configuration& con
 absl::Status change(const v1::ConfigurationState& message, const Configuration& configuration,
                     ConfigurationState& state) {
     ConfigurationState changed = state;
-    RETURN_IF_ERROR(changeAll(message.layouts(), configuration, changed));
-    RETURN_IF_ERROR(changeAll(message.equalizers(), configuration, changed));
-    RETURN_IF_ERROR(changeAll(message.heads(), configuration, changed));
-    RETURN_IF_ERROR(changeAll(message.views(), configuration, changed));
-    RETURN_IF_ERROR(changeAll(message.observers(), configuration, changed));
+    RETURN_IF_ERROR(changeAll(message.layouts(), "layouts", configuration, changed));
+    RETURN_IF_ERROR(changeAll(message.equalizers(), "equalizers", configuration, changed));
+    RETURN_IF_ERROR(changeAll(message.heads(), "heads", configuration, changed));
+    RETURN_IF_ERROR(changeAll(message.views(), "views", configuration, changed));
+    RETURN_IF_ERROR(changeAll(message.observers(), "observers", configuration, changed));
     state = std::move(changed);
     return absl::OkStatus();
 }

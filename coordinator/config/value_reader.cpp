@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -59,8 +60,14 @@ void ValueReader::block(const Statement& block, std::string_view what,
                         std::initializer_list<Entry> entries) {
     if (block.form != Statement::Form::Block)
         return expected(block, "a block { }");
+    std::set<std::string_view> values;
     for (const Statement& statement : block.statements) {
         const auto entry = std::ranges::find(entries, statement.keyword, &Entry::keyword);
+        const bool isValue =
+            statement.form == Statement::Form::Plain || statement.form == Statement::Form::List;
+        if (entry != entries.end() && isValue && !entry->mayRepeat &&
+            !values.insert(entry->keyword).second)
+            givenAgain(statement);
         if (entry != entries.end())
             entry->read(statement);
         else if (!statement.keyword.empty())
@@ -97,6 +104,11 @@ void ValueReader::hasNoEffect(const Statement& statement, std::string_view why,
         findings_.onScreen(statement.place, std::move(message));
     else
         findings_.note(statement.place, std::move(message));
+}
+
+void ValueReader::givenAgain(const Statement& statement) {
+    findings_.warning(statement.place,
+                      fmt::format("'{}' is given again: only this one counts", statement.keyword));
 }
 
 void ValueReader::text(const Statement& statement, std::string& target) {

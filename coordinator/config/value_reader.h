@@ -20,14 +20,15 @@ namespace eyrie::config {
 struct Entry {
     std::string_view keyword;
     std::function<void(const Statement&)> read;
+    bool mayRepeat = false;  ///< a value that stands for one of several, as blocks do
 };
 
 class ValueReader {
 public:
     explicit ValueReader(Findings& findings) : findings_(findings) {}
 
-    /// Hands each statement of a block to its keyword's entry; others are warned of. `what` names
-    /// the block.
+    /// Hands each statement of a block to its keyword's entry; others are warned of, and values
+    /// that are given twice. `what` names the block.
     void block(const Statement& block, std::string_view what, std::initializer_list<Entry> entries);
 
     void text(const Statement& statement, std::string& target);
@@ -102,6 +103,8 @@ public:
     /// Of what is accepted; `why` goes on a sentence.
     void hasNoEffect(const Statement& statement, std::string_view why,
                      Finding::Kind kind = Finding::Kind::Note);
+    /// Where a value was given before.
+    void givenAgain(const Statement& statement);
     Findings& findings() { return findings_; }
 
 private:

@@ -65,11 +65,10 @@ DrawnPart partOf(const fabric::ChannelTask& task, const std::string& renderer,
 RenderedFrame composedFrame(const PlannedFrame& frame, const compound::Plan& plan,
                             std::vector<Dispatch::Drawn> drawn, std::vector<fabric::Image> more) {
     RenderedFrame result;
-    result.blind = frame.plan.blind;
     if (!drawn.empty())
         result.device = drawn.front().device;
     for (const compound::Picture& picture : frame.plan.pictures)
-        result.pictures.push_back({picture.output, picture.seen});
+        result.pictures.push_back({picture.output, picture.seen, picture.whyBlind});
     for (std::size_t i = 0; i < drawn.size(); ++i) {
         const Dispatch::Drawn& part = drawn[i];
         fabric::accumulate(result.statistics, part.result.statistics);

@@ -66,8 +66,9 @@ struct FrameRequest {
 
 /// What one of a frame's pictures is.
 struct PictureFacts {
-    std::size_t shown = 0;   ///< in FrameRequest::shown
-    fabric::SeenAreas seen;  ///< by which sights
+    std::size_t shown = 0;      ///< in FrameRequest::shown
+    fabric::SeenAreas seen;     ///< by which sights
+    std::string whyBlind = {};  ///< compound::Picture::whyBlind
 
     bool operator==(const PictureFacts&) const = default;
 };
@@ -104,31 +105,38 @@ struct RenderedFrame {
     std::vector<fabric::Image> further = {};
     std::vector<PictureFacts> pictures = {};  ///< of `image` and of what is further
     std::vector<DrawnPart> parts = {};        ///< who drew what
-    std::size_t blind = 0;                    ///< compound::Plan::blind
     /// Side by side they are the picture, where the request allows it: `image` has no pixels then.
     std::vector<CodedTile> tiles = {};
 };
 
+/// Of the first of a frame's pictures of which a part shows nothing.
+inline std::string whyBlind(const RenderedFrame& frame) {
+    for (const PictureFacts& picture : frame.pictures)
+        if (!picture.whyBlind.empty())
+            return picture.whyBlind;
+    return "";
+}
+
 /// For a person to read, where a frame shows nothing; empty where it shows something. What a canvas
 /// puts together of others' frames, as monitors do, is drawn and seen by no sight of its own.
-inline std::string_view whyEmpty(const RenderedFrame& frame) {
+inline std::string whyEmpty(const RenderedFrame& frame) {
     if (!frame.parts.empty())
         return "";
     for (const PictureFacts& picture : frame.pictures)
         if (!picture.seen || !picture.seen->empty())
             return "";
-    return frame.pictures.empty()
-               ? ""
-               : "Nothing is seen here: the eye is not before the wall that it is to look through, "
-                 "the canvas shows no layout, or no compound draws what the view shows.";
+    if (frame.pictures.empty())
+        return "";
+    if (const std::string why = whyBlind(frame); !why.empty())
+        return "Nothing is seen here: " + why + ".";
+    return "Nothing is seen here: the canvas shows no layout, or no compound draws what the view "
+           "shows.";
 }
 
 /// The same of a frame of which a part shows nothing.
-inline std::string_view whyPartlyEmpty(const RenderedFrame& frame) {
-    return frame.blind == 0 || !whyEmpty(frame).empty()
-               ? ""
-               : "A part shows nothing: the eye is not before the wall that it is to look through "
-                 "there.";
+inline std::string whyPartlyEmpty(const RenderedFrame& frame) {
+    const std::string why = whyBlind(frame);
+    return why.empty() || !whyEmpty(frame).empty() ? "" : "A part shows nothing: " + why + ".";
 }
 
 enum class RendererCondition {

@@ -9,7 +9,7 @@
 namespace eyrie::coordinator {
 
 /// Which picture of a configuration somebody wants to see. Things are named by their names, of
-/// several the first, or by their positions from 0 on.
+/// several the first, or by their positions from 0 on: "1", or "#1" where another is named "1".
 struct Shown {
     std::string canvas;                ///< empty: the first
     std::string segment;               ///< empty: the whole canvas

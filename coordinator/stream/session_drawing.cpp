@@ -183,8 +183,8 @@ void Session::Impl::rendered(const Begun& begun, absl::StatusOr<coordinator::Ren
         // Of frames at the same time each takes what it adds.
         const Clock::time_point from = std::max(begun.at, std::exchange(lastRendered_, now));
         for (const auto& seat : seats_) seat->outbox.rendered(now - from);
-        setProblem(renderProblem_, std::string(coordinator::whyEmpty(*frame)));
-        setProblem(renderNote_, std::string(coordinator::whyPartlyEmpty(*frame)));
+        setProblem(renderProblem_, coordinator::whyEmpty(*frame));
+        setProblem(renderNote_, coordinator::whyPartlyEmpty(*frame));
         const double stretch = stretchOf(begun.view, begun.request, frame->image.area);
         tellAtFullSize(frame->statistics, begun.view, stretch);
         if (statistics_ != nullptr)

@@ -265,15 +265,15 @@ TEST(ConfigurationStateMessage, NamesTheEqualizerOfWhatIsWrong) {
         return std::string(change(message, balanced, state).message());
     };
     EXPECT_EQ(wrong([](v1::EqualizerTuning& tuning) { tuning.add_boundary(3); }),
-              "equalizer 1: boundary has 1 numbers; it must have 2");
+              "equalizers[0]: equalizer 1: boundary has 1 numbers; it must have 2");
     EXPECT_EQ(wrong([](v1::EqualizerTuning& tuning) { tuning.set_damping(3); }),
-              "equalizer 1: damping is 3; it must be from 0 to 1");
+              "equalizers[0]: equalizer 1: damping is 3; it must be from 0 to 1");
 }
 
 TEST(ConfigurationStateMessage, WithAnErrorChangesNothing) {
     Findings findings;
     const Configuration configuration = readEqc(
-        "config { observer { name \"me\" } layout { name \"x\" } layout { name \"y\" }"
+        "config { observer { name \"me\" } layout { name \"x\" view {} } layout { name \"y\" }"
         " canvas { name \"c\" layout \"x\" layout \"y\" } }",
         findings);
     const ConfigurationState state = initialState(configuration);
@@ -286,6 +286,11 @@ TEST(ConfigurationStateMessage, WithAnErrorChangesNothing) {
     wrong.mutable_heads(0)->add_room_from_head(0);
     EXPECT_FALSE(change(wrong, configuration, changed).ok());
     EXPECT_EQ(changed, state);
+    v1::ConfigurationState unseen = toMessage(configuration, state);
+    unseen.mutable_views(0)->set_model_unit(1e10);
+    EXPECT_THAT(
+        std::string(change(unseen, configuration, changed).message()),
+        testing::StartsWith("views[0]: the model unit is 10000000000; it must be from 1e-09"));
     for (const char* const setting : {"base", "distance", "far", "mode"}) {
         v1::ConfigurationState blind = toMessage(configuration, state);
         v1::ObserverSetting& observer = *blind.mutable_observers(0);

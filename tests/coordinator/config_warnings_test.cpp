@@ -19,6 +19,25 @@ TEST(EqcWarnings, SayHowManyFramesAreUnderWayAtMost) {
               "with a latency of 7\n");
 }
 
+TEST(EqcWarnings, SayWhichOfTwoValuesCounts) {
+    EXPECT_EQ(describe(Read("config { latency 1 latency 2 }").findings, "f"),
+              "f:1:20: warning: 'latency' is given again: only this one counts\n");
+    EXPECT_EQ(Read("config { latency 1 latency 2 }").configuration.latency, 2);
+    EXPECT_EQ(describe(Read("config { attributes { eye_base .1 eye_base .2 } }").findings, "f"),
+              "f:1:35: warning: 'eye_base' is given again: only this one counts\n");
+    const std::string canvas =
+        "config { appNode { pipe { window { channel { name \"a\" } } } } layout { name \"x\" view "
+        "{} } layout { name \"y\" view {} } canvas { layout \"x\" layout \"y\" segment { channel "
+        "\"a\" } } }";
+    EXPECT_EQ(describe(Read(canvas).findings, "f"), "") << "a canvas may have several layouts";
+    EXPECT_THAT(describe(Read(withCompounds("compound { load_equalizer { boundary [ 16 16 ] "
+                                            "boundary .01 } }"))
+                             .findings,
+                         "f"),
+                testing::Not(HasSubstr("given again")))
+        << "one of pixels, the other of the range";
+}
+
 TEST(EqcWarnings, SayWhatShowsNothing) {
     const std::string node = "config { appNode { pipe { window { channel { name \"a\" } } } } ";
     const auto shown = [&node](const std::string& mode, const std::string& eyes) {

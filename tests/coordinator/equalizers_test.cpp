@@ -405,7 +405,7 @@ TEST(Equalizers, SayWhichSettingCannotBe) {
     tuning.resistancePixels = fabric::Vec2(.5, 3);
     EXPECT_EQ(equalizers.tune("0", tuning).code(), absl::StatusCode::kInvalidArgument);
     EXPECT_THAT(std::string(equalizers.tune("tree.0", {}).ToString()),
-                HasSubstr("no equalizer is named \"tree.0\"; there are \"load.0\""));
+                HasSubstr("no equalizer is called \"tree.0\"; there are \"load.0\""));
     EXPECT_EQ(equalizers.states()[0].settings.damping, .5);
 }
 

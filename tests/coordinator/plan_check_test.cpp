@@ -47,6 +47,39 @@ std::string withCompounds(std::string_view compounds, std::string_view pixels = 
         channels, mode, compounds);
 }
 
+TEST(PlanCheck, WarnsOfWallsThroughWhichNothingCanBeDrawn) {
+    const auto wall = [](std::string_view half) {
+        return foundIn(fmt::format(
+            "config {{ appNode {{ pipe {{ window {{ channel {{ name \"a\" }} }} }} }} observer "
+            "{{}} "
+            "layout {{ view {{ observer 0 }} }}\ncanvas {{ layout 0 segment {{ channel \"a\" wall "
+            "{{ "
+            "bottom_left [ -{0} -{0} -1 ] bottom_right [ {0} -{0} -1 ] top_left [ -{0} {0} -1 ] }} "
+            "}} }} }}",
+            half));
+    };
+    EXPECT_EQ(wall(".001"), "");
+    EXPECT_THAT(wall(".0000001"),
+                testing::AllOf(HasSubstr("warning: nothing is shown: the eye sees what "
+                                         "cannot be drawn through its wall: "),
+                               HasSubstr("sight.frustum.right")));
+}
+
+/// Every third column, at a zoom of 2: the first of them is left of the view.
+TEST(PlanCheck, RefusesPixelsThatReachBeyondTheView) {
+    const auto shares = [](std::string_view zoom) {
+        return foundIn(withCompounds(fmt::format(
+            "compound {{ channel ( segment 0 view \"v\" )\ncompound {{ channel \"b\" pixel [ 0 0 3 "
+            "1 "
+            "] zoom [ {} 1 ] outputframe {{ name \"x\" }} }}\ncompound {{ pixel [ 1 0 3 1 ] }} "
+            "compound {{ pixel [ 2 0 3 1 ] }} inputframe {{ name \"x\" }} }}",
+            zoom)));
+    };
+    EXPECT_EQ(shares("1"), "");
+    EXPECT_THAT(shares("2"), testing::AllOf(HasSubstr("f:3:1: error: "),
+                                            HasSubstr("reaches beyond that: raster.origin.x")));
+}
+
 constexpr const char* kRing =
     "compound { channel \"b\" inputframe { name \"x\" } outputframe { name \"y\" } }\n"
     "compound { channel \"c\" inputframe { name \"y\" } outputframe { name \"x\" } }\n"

@@ -52,16 +52,16 @@ TEST(Note, AFrameOfWhichAPartShowsNothingIsNoEmptyOne) {
     RenderedFrame frame;
     frame.pictures = {{0, std::vector<fabric::SeenArea>()}, {0, std::nullopt}};
     EXPECT_EQ(whyPartlyEmpty(frame), "");
-    frame.blind = 1;
-    EXPECT_THAT(std::string(whyPartlyEmpty(frame)), testing::HasSubstr("not before the wall"));
+    frame.pictures[0].whyBlind = "the eye is not before the wall";
+    EXPECT_THAT(whyPartlyEmpty(frame), testing::HasSubstr("not before the wall"));
     EXPECT_EQ(whyEmpty(frame), "");
 }
 
 TEST(Note, ACanvasOfOthersFramesIsNoEmptyOne) {
     RenderedFrame monitor;
     monitor.pictures = {{0, std::vector<fabric::SeenArea>()}};
-    EXPECT_THAT(std::string(whyEmpty(monitor)), testing::HasSubstr("Nothing is seen here"));
-    EXPECT_THAT(std::string(whyEmpty(monitor)), testing::HasSubstr("no compound draws"));
+    EXPECT_THAT(whyEmpty(monitor), testing::HasSubstr("Nothing is seen here"));
+    EXPECT_THAT(whyEmpty(monitor), testing::HasSubstr("no compound draws"));
     monitor.parts.emplace_back();
     EXPECT_EQ(whyEmpty(monitor), "");
 }

@@ -46,7 +46,8 @@ TEST(Viewer, IsToldWhatIsMissingThoughThereArePictures) {
     Browser browser(frames, moving(1));
     frames.setDraw([](const FrameRequest& request) {
         coordinator::RenderedFrame frame = coordinator::plainFrame(request, {90, 120, 60, 255});
-        frame.blind = 1;
+        frame.pictures.resize(1);
+        frame.pictures[0].whyBlind = "the eye is not before the wall";
         return frame;
     });
     browser.look(1);
@@ -175,7 +176,7 @@ TEST(Viewer, SendsARestingViewNearlyExactAndThenExact) {
     FakeFrameSource frames;
     frames.setDraw(noisyFrame);
     SessionOptions options = resting();
-    options.restDelay = milliseconds(300);  // longer than a busy machine takes to draw
+    options.restDelay = milliseconds(1000);  // longer than a busy machine takes to draw
     Browser browser(frames, options);
     browser.look(1);
     const auto moved = browser.nextFrame();

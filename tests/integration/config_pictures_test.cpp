@@ -207,6 +207,58 @@ TEST_F(ConfigPictures, OfACaveComeTwelveAtOnceAndAreThoseDrawnOneByOne) {
                 static_cast<int>(together), static_cast<int>(separately));
 }
 
+/// Names that are other segments' positions.
+TEST_F(ConfigPictures, AllOfSegmentsWithNumbersForNamesAreThoseOfTheirNames) {
+    const std::string file = folder_->path("numbers.eqc");
+    std::ofstream(file) << R"(config {
+        appNode { pipe { window { viewport [ 0 0 64 64 ] channel { name "a" } channel { name "b" } } } }
+        layout { view {} } canvas { layout 0 wall {}
+        segment { name "1" viewport [ 0 0 .5 1 ] channel "a" }
+        segment { name "0" viewport [ .5 0 .5 1 ] channel "b" } } })";
+    const auto draw = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {"render",   folder_->path("ball.eym"),
+                                              "--camera", folder_->path("inside.json"),
+                                              "--size",   "48x64",
+                                              "--config", file,
+                                              "--quiet"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_TRUE(test::succeeded(arguments));
+    };
+    draw({"--all", "-o", folder_->path("all.png")});
+    std::vector<fabric::Image> pictures;
+    for (const std::string name : {"0", "1"}) {
+        draw({"--segment", name, "-o", folder_->path("one.png")});
+        const auto ofAll = test::readPng(folder_->path("all.0." + name + ".png"));
+        const auto single = test::readPng(folder_->path("one.png"));
+        ASSERT_TRUE(ofAll.ok() && single.ok()) << ofAll.status() << single.status();
+        EXPECT_EQ(differing(*ofAll, *single), 0U) << name;
+        pictures.push_back(*single);
+    }
+    EXPECT_GT(differing(pictures[0], pictures[1]), 100U) << "two halves";
+}
+
+TEST_F(ConfigPictures, WarningsAreToldThoughThereIsNothingElseToTell) {
+    const std::string file = folder_->path("again.eqc");
+    std::ofstream(file) << R"(config { latency 1 latency 0
+        appNode { pipe { window { viewport [ 0 0 64 64 ] channel { name "a" } } } }
+        layout { view {} } canvas { layout 0 wall {} segment { channel "a" } } })";
+    const auto told = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {"render",   folder_->path("ball.eym"),
+                                              "--camera", folder_->path("cam.json"),
+                                              "--size",   "64x48",
+                                              "--config", file,
+                                              "-o",       folder_->path("out.png")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return test::eyrie(arguments);
+    };
+    const test::Outcome quiet = told({"--quiet"});
+    EXPECT_EQ(quiet.exit, (test::Exit{0, 0})) << quiet.errors;
+    EXPECT_THAT(quiet.errors, HasSubstr("'latency' is given again"));
+    const test::Outcome eyes = told({"--eye", "left", "--stereo", "anaglyph"});
+    EXPECT_EQ(eyes.exit, (test::Exit{2, 0})) << "one eye's picture is none of two";
+    EXPECT_THAT(eyes.errors, HasSubstr("--eye"));
+}
+
 TEST_F(ConfigPictures, AllOfWhatIsNoConfigurationIsRefused) {
     const test::Outcome outcome =
         test::eyrie({"render", folder_->path("ball.eym"), "--camera", folder_->path("cam.json"),

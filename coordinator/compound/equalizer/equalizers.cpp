@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/config/named.h"
 #include "fabric/status.h"
 
 namespace eyrie::equalizer {
@@ -125,15 +126,7 @@ void Equalizers::record(const FrameTimes& times) {
 }
 
 absl::StatusOr<std::size_t> Equalizers::find(std::string_view name) const {
-    std::string known;
-    for (std::size_t i = 0; i < entries_.size(); ++i) {
-        if (entries_[i].name == name || fmt::format("{}", i) == name)
-            return i;
-        known += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", entries_[i].name);
-    }
-    return absl::NotFoundError(
-        fmt::format("no equalizer is named \"{}\"; {}", name,
-                    known.empty() ? "the configuration has none" : "there are " + known));
+    return config::findNamed(entries_, "equalizer", name);
 }
 
 absl::Status Equalizers::tune(std::string_view name, const Tuning& tuning) {
