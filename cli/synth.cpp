@@ -163,7 +163,8 @@ Kind addKind(CLI::App& parent, const char* name, const char* description, Run& r
     command->add_option("-o,--output", options->out, "File to write")
         ->type_name("FILE")
         ->required();
-    command->add_flag("--quiet", options->quiet, "No progress");
+    command->add_flag("--quiet", options->quiet,
+                      "No progress, and nothing of what was made: only errors");
     command->add_flag("--json", options->json, "Print what was made as JSON");
     command->callback([options, make, &run] { run = [options, make] { return make(*options); }; });
     return {command, options};

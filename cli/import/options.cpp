@@ -21,7 +21,8 @@ absl::Status checkEnding(const ImportOptions& options, std::string_view ending) 
 
 void addCommonOptions(CLI::App& command, ImportOptions& options) {
     command.add_option("-o,--output", options.out, "File to write")->type_name("FILE")->required();
-    command.add_flag("--quiet", options.quiet, "No progress");
+    command.add_flag("--quiet", options.quiet,
+                     "No progress, and nothing of what was made or left out: only errors");
     command.add_flag("--progress-json", options.progressJson,
                      "Progress as lines of JSON on standard error, for programs: a stage, and how "
                      "far that is from 0 to 1");

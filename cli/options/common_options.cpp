@@ -22,7 +22,9 @@ void addTo(CLI::App& command, CommonOptions& options) {
         ->type_name("text|json")
         ->capture_default_str()
         ->group(kCommonGroup);
-    command.add_option("--log-level", options.logLevel, "The least that is logged [info]")
+    command
+        .add_option("--log-level", options.logLevel,
+                    "The least that is logged [info; warn of render and bench]")
         ->check(oneOf({"trace", "debug", "info", "warn", "error", "off"}))
         ->type_name("trace|debug|info|warn|error|off")
         ->group(kCommonGroup);
