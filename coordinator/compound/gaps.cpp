@@ -51,9 +51,9 @@ void warnOfGaps(const config::ResolvedConfiguration& resolved, const WorkList& l
             for (const PicturePart& part : *parts) {
                 const std::size_t destination = list.framebuffers[part.framebuffer].destination;
                 const Contents& there = contents[part.framebuffer];
-                if (const auto blind = list.blind.find(destination); blind != list.blind.end()) {
+                if (const Blind* const blind = list.blindOf(part.framebuffer)) {
                     // An eye moves before its wall; what cannot be drawn is so wherever it is.
-                    const auto& [why, place] = blind->second;
+                    const auto& [why, place] = *blind;
                     if (absl::IsInvalidArgument(why))
                         findings.warning(place,
                                          fmt::format("{}: {}",

@@ -2,6 +2,8 @@
 #include "coordinator/compound/plan.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -104,6 +106,21 @@ std::vector<Pass> passesFor(const config::Configuration& configuration,
     return passes;
 }
 
+void sayWhatIsBlind(const WorkList& list, Plan& plan) {
+    std::set<std::size_t> destinations;
+    for (Picture& picture : plan.pictures)
+        for (const std::vector<PicturePart>* const parts : {&picture.parts, &picture.right})
+            for (const PicturePart& part : *parts) {
+                const Blind* const blind = list.blindOf(part.framebuffer);
+                if (blind == nullptr)
+                    continue;
+                destinations.insert(list.framebuffers[part.framebuffer].destination);
+                if (picture.whyBlind.empty())
+                    picture.whyBlind = std::string(blind->why.message());
+            }
+    plan.blind = destinations.size();
+}
+
 /// A segment of one eye has nothing for the other.
 void checkEye(const config::ResolvedConfiguration& resolved, const Output& output,
               Refusals& refusals) {
@@ -184,17 +201,7 @@ std::optional<Plan> makePlan(const config::Configuration& configuration, const P
     plan.queues = std::move(list.queues);
     for (const WorkingBuffer& each : list.framebuffers)
         plan.framebuffers.push_back(each.framebuffer);
-    for (const auto& [destination, blind] : list.blind) {
-        bool isAskedFor = false;
-        for (Picture& picture : plan.pictures) {
-            if (!isPartOf(shown.destinations[destination], request.outputs[picture.output]))
-                continue;
-            isAskedFor = true;
-            if (picture.whyBlind.empty())
-                picture.whyBlind = std::string(blind.why.message());
-        }
-        plan.blind += isAskedFor ? 1 : 0;
-    }
+    sayWhatIsBlind(list, plan);
     keepWhatIsNeeded(plan);
     return plan;
 }

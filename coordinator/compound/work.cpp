@@ -220,7 +220,8 @@ private:
             seen(configuration_, request_, destination, surroundings, pass_.sight,
                  focusRatio(configuration_, request_.display, resolved_, destination));
         if (!sight.ok()) {
-            list_.blind.try_emplace(*own.destination, Blind{sight.status(), own.place()});
+            list_.blind.try_emplace({*own.destination, pass_.compounds, pass_.sight},
+                                    Blind{sight.status(), own.place()});
             return;
         }
         fabric::ChannelTask task;
@@ -404,6 +405,12 @@ private:
 };
 
 }  // namespace
+
+const Blind* WorkList::blindOf(std::size_t framebuffer) const {
+    const WorkingBuffer& shown = framebuffers[framebuffer];
+    const auto found = blind.find({shown.destination, shown.pass.compounds, shown.pass.sight});
+    return found == blind.end() ? nullptr : &found->second;
+}
 
 std::size_t WorkList::find(const WorkingBuffer& wanted) {
     const config::ChannelIndex& channel = wanted.framebuffer.channel;

@@ -90,7 +90,10 @@ struct WorkList {
     std::vector<PlannedDraw> draws;
     std::vector<Work> works;
     std::vector<std::vector<config::ChannelIndex>> queues;
-    std::map<std::size_t, Blind> blind;  ///< destinations, of the first compound
+    /// By destination and pass, of the first compound.
+    std::map<std::tuple<std::size_t, Eye, Eye>, Blind> blind;
+    /// Null where the framebuffer's destination is seen, or its picture is put together of others'.
+    const Blind* blindOf(std::size_t framebuffer) const;
     Refusals& refusals;
 
     /// The framebuffer in which a destination's picture comes to be; made where there is none yet.

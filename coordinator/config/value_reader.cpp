@@ -107,8 +107,9 @@ void ValueReader::hasNoEffect(const Statement& statement, std::string_view why,
 }
 
 void ValueReader::givenAgain(const Statement& statement) {
-    findings_.warning(statement.place,
-                      fmt::format("'{}' is given again: only this one counts", statement.keyword));
+    findings_.warning(
+        statement.place,
+        fmt::format("'{}' is given again: what it was before does not count", statement.keyword));
 }
 
 void ValueReader::text(const Statement& statement, std::string& target) {

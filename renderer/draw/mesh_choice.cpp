@@ -12,6 +12,9 @@
 namespace eyrie::draw {
 namespace {
 
+/// Of a frame, each of 128 triangles: some 3 ms.
+constexpr int kMostBlocksLookedInto = 256;
+
 /// For Prefetch::nodes.
 struct NodeTree {
     using Node = std::uint32_t;
@@ -166,21 +169,37 @@ std::vector<Piece> MeshChoice::piecesOf(const MeshCut& drawn, const NodeShares& 
     return pieces;
 }
 
-/// By what is in a node's box where that does not say enough: it does not keep tau, as none can
-/// that the eye is in, or is so near that what single precision makes of its corners shows.
-double MeshChoice::errorOf(MeshCut drawn, const CutRequest& request) {
-    for (CutNode& each : drawn.drawn) {
-        const DeviceNode* const node = paging_->node(each.node);
-        if (each.points > 0 || node == nullptr)
-            continue;
+/// Of nodes by their boxes; of the worst by what is in these, where boxes do not say enough: they
+/// do not keep tau, as none can that the eye is in, or are so near that what single precision makes
+/// of corners would show.
+double MeshChoice::errorOf(const MeshCut& drawn, const CutRequest& request) {
+    struct Rough {
+        double pixels;
+        std::uint32_t node;
+    };
+    std::vector<Rough> rough;
+    double worst = drawn.isWhole ? 0 : std::numeric_limits<double>::infinity();
+    for (const CutNode& each : drawn.drawn) {
         const fabric::Box box = file_->bounds(each.node);
-        if (each.errorPixels > request.tauPixels || request.view.roundingPixels(box, box) > 0)
-            each.errorPixels =
-                errorOfBlocksPixels(node->blocks, file_->lattice(), request.view,
-                                    {file_->nodes()[each.node].farthestMetres(), request.tauPixels},
-                                    near_.of(each.node, *node));
+        const double rounding = each.points > 0 ? 0 : request.view.roundingPixels(box, box);
+        if (each.points > 0 || (each.errorPixels <= request.tauPixels && rounding == 0))
+            worst = std::max(worst, each.errorPixels);
+        else
+            rough.push_back({each.errorPixels + rounding, each.node});
     }
-    return drawn.errorPixels();
+    std::ranges::stable_sort(rough, std::ranges::greater(), &Rough::pixels);
+    int mayLookInto = kMostBlocksLookedInto;
+    for (std::size_t i = 0; i < rough.size() && rough[i].pixels > worst; ++i) {
+        const auto& [pixels, index] = rough[i];
+        const DeviceNode* const node = paging_->node(index);
+        if (node == nullptr || i == NearTriangles::kMostNodes)
+            return pixels;
+        worst = std::min(pixels, errorOfBlocksPixels(node->blocks, file_->lattice(), request.view,
+                                                     {file_->nodes()[index].farthestMetres(),
+                                                      request.tauPixels, worst},
+                                                     near_.of(index, *node), mayLookInto));
+    }
+    return worst;
 }
 
 double MeshChoice::viewWork(const CutRequest& request) {
@@ -227,7 +246,7 @@ Cut MeshChoice::select(const CutRequest& request) {
             }));
     cut.isComplete = cut.pagesMissing == 0 && choice.isLowest;
     cut.pieces = piecesOf(drawn, shares);
-    errorPixels_ = errorOf(std::move(drawn), request);
+    errorPixels_ = errorOf(drawn, request);
     wanted_.clear();
     return cut;
 }

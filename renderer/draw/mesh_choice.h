@@ -47,7 +47,7 @@ private:
     MeshPaging::Progress load(const CutRequest& request, double tauPixels, const NodeShares& shares,
                               const MeshCut& drawn);
     std::vector<Piece> piecesOf(const MeshCut& drawn, const NodeShares& shares) const;
-    double errorOf(MeshCut drawn, const CutRequest& request);
+    double errorOf(const MeshCut& drawn, const CutRequest& request);
     bool hasBlended(std::uint32_t node) const;
 
     const std::shared_ptr<const mesh::EymFile> file_;

@@ -16,8 +16,8 @@ namespace eyrie::draw {
 /// read back once and kept for the last few nodes. GL thread.
 class NearTriangles {
 public:
-    /// At most so many are kept, of 0.5 MB each.
-    static constexpr std::size_t kMostNodes = 8;
+    /// At most so many are kept, of some 0.3 MB each, 0.9 at most.
+    static constexpr std::size_t kMostNodes = 16;
 
     explicit NearTriangles(const mesh::EymFile& file) : file_(file) {}
 

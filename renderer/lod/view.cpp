@@ -24,7 +24,8 @@ using fabric::Vec2;
 using fabric::Vec3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// How far a corner is drawn from where it is, of its distance to the eye (docs/errors.md).
+/// How far a corner is drawn from where it is, of its distance to the eye: straight ahead, where
+/// the object's axes are at right angles (docs/errors.md).
 constexpr double kCornerRounding = 9.0 / (1 << 24);
 /// To which OpenGL snaps window coordinates.
 constexpr double kSnappedPixels = 1.0 / 256;
@@ -161,6 +162,25 @@ std::array<Vec3, 3> inView(std::span<const Vec3, 3> triangle, const Mat4& viewFr
             viewPoint(triangle[2], viewFromObject)};
 }
 
+/// Of the rows that make clip coordinates, against those of a rotation: longer by as much as the
+/// middle of the frustum is off the axis.
+double obliqueness(const Frustum& f) {
+    const double across = (f.left + f.right) / 2;
+    const double up = (f.bottom + f.top) / 2;
+    return std::sqrt((3 + across * across + up * up) / 3);
+}
+
+bool areAtRightAngles(const Mat3& axes) {
+    constexpr double kRounding = 1e-9;
+    for (int i = 0; i < 3; ++i) {
+        const Vec3& a = axes[i];
+        const Vec3& b = axes[(i + 1) % 3];
+        if (std::abs(glm::dot(a, b)) > kRounding * glm::length(a) * glm::length(b))
+            return false;
+    }
+    return true;
+}
+
 /// Exactly the ends at 0 and 1.
 double between(double low, double high, double share) { return low * (1 - share) + high * share; }
 
@@ -246,6 +266,10 @@ ObjectView::ObjectView(const View& view, const Mat4& worldFromObject)
     viewFromObject_ = Mat4(view.viewFromWorldRotation) * relativeFromObject;
     objectFromView_ = glm::inverse(viewFromObject_);
     leastMetresPerObjectUnit_ = 1 / largestStretch(Mat3(objectFromView_));
+    const Mat3 axes(worldFromObject);
+    const double sheared =
+        areAtRightAngles(axes) ? 1 : metresPerObjectUnit_ / leastMetresPerObjectUnit_;
+    rounding_ = kCornerRounding * obliqueness(view.frustum) * sheared;
 }
 
 bool ObjectView::isVisible(const Box& bounds, const Frustum& frustum) const {
@@ -326,7 +350,7 @@ bool ObjectView::isRoundedUnseen(const Box& reach, const Box& bounds) const {
     const Vec3 eye(objectFromView_[3]);
     const Vec3 near = glm::max(glm::max(bounds.min - eye, eye - bounds.max), Vec3(0.0));
     const Vec3 far = glm::max(glm::abs(reach.min - eye), glm::abs(reach.max - eye));
-    const double off = kCornerRounding * glm::length(far) * metresPerObjectUnit_;
+    const double off = rounding_ * glm::length(far) * metresPerObjectUnit_;
     return 2 * off * view_.greatestFocalPixels() * widestSecantSquared(view_.frustum) <=
            kSnappedPixels * glm::length(near) * leastMetresPerObjectUnit_;
 }
@@ -336,7 +360,7 @@ double ObjectView::roundingPixels(const Box& reach, const Box& bounds) const {
         return 0;
     const Corners corners = viewCorners(bounds, viewFromObject_);
     return roundedPixels(view_, corners, distanceAtLeast(corners),
-                         kCornerRounding * farthest(viewCorners(reach, viewFromObject_)));
+                         rounding_ * farthest(viewCorners(reach, viewFromObject_)));
 }
 
 double ObjectView::roundingPixels(std::span<const Vec3, 3> triangle) const {
@@ -346,13 +370,13 @@ double ObjectView::roundingPixels(std::span<const Vec3, 3> triangle) const {
         return 0;
     const std::array<Vec3, 3> corners = inView(triangle, viewFromObject_);
     return roundedPixels(view_, std::span(corners), distanceTo(corners),
-                         kCornerRounding * farthest(corners));
+                         rounding_ * farthest(corners));
 }
 
 double ObjectView::displacedPixels(double errorMetres, std::span<const Vec3, 3> triangle,
                                    double enoughPixels) const {
     const std::array<Vec3, 3> corners = inView(triangle, viewFromObject_);
-    const double off = errorMetres * metresPerObjectUnit_ + kCornerRounding * farthest(corners);
+    const double off = errorMetres * metresPerObjectUnit_ + rounding_ * farthest(corners);
     return displacementPixels(view_, std::span(corners), distanceTo(corners), off, enoughPixels);
 }
 

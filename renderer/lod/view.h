@@ -103,8 +103,8 @@ public:
 
     /// Both of one triangle that is drawn with `errorMetres` of geometric error: how far what is
     /// within that of it may be from where it is seen, in pixels. Where that is no more than
-    /// `enoughPixels`, any number up to that. Infinite only when the eye is about as near to it as
-    /// the error. Proof: docs/errors.md#corners-far-away.
+    /// `enoughPixels`, any number up to that. Infinite only when the eye is as near to it as the
+    /// error, but for the secant of the picture's corner. Proof: docs/errors.md#corners-far-away.
     double displacedPixels(double errorMetres, std::span<const fabric::Vec3, 3> triangle,
                            double enoughPixels) const;
 
@@ -120,6 +120,8 @@ private:
     fabric::Mat4 objectFromView_;
     double metresPerObjectUnit_;       ///< the largest stretch of worldFromObject
     double leastMetresPerObjectUnit_;  ///< the smallest
+    /// How far a corner is drawn from where it is, of its distance to the eye.
+    double rounding_;
 };
 
 }  // namespace eyrie::lod

@@ -21,10 +21,10 @@ TEST(EqcWarnings, SayHowManyFramesAreUnderWayAtMost) {
 
 TEST(EqcWarnings, SayWhichOfTwoValuesCounts) {
     EXPECT_EQ(describe(Read("config { latency 1 latency 2 }").findings, "f"),
-              "f:1:20: warning: 'latency' is given again: only this one counts\n");
+              "f:1:20: warning: 'latency' is given again: what it was before does not count\n");
     EXPECT_EQ(Read("config { latency 1 latency 2 }").configuration.latency, 2);
     EXPECT_EQ(describe(Read("config { attributes { eye_base .1 eye_base .2 } }").findings, "f"),
-              "f:1:35: warning: 'eye_base' is given again: only this one counts\n");
+              "f:1:35: warning: 'eye_base' is given again: what it was before does not count\n");
     const std::string canvas =
         "config { appNode { pipe { window { channel { name \"a\" } } } } layout { name \"x\" view "
         "{} } layout { name \"y\" view {} } canvas { layout \"x\" layout \"y\" segment { channel "

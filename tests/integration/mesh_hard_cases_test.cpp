@@ -141,16 +141,14 @@ TEST_F(HardCase15, InTheCornerOfAWideViewThePromiseIsKept) {
             }
 }
 
-/// Around an eye in the box of a leaf nothing is promised. The surface is drawn as well as
-/// elsewhere.
-TEST_F(HardCase16, FromWithinBoxesPicturesAreWhatTauAsksFor) {
+/// Around an eye in the box of a leaf its triangles say what is promised.
+TEST_F(HardCase16, FromWithinBoxesThePromiseIsFiniteAndKept) {
     const Mesh ball = import::synthesizeMesh(100000, 16);
     const truth::MeshRayCaster source({ball.positions, ball.triangles});
     scene_.objects = {import(ball, "ball")};
     ASSERT_NO_FATAL_FAILURE(open());
     std::mt19937 random(16);
     std::size_t compared = 0;
-    int infinite = 0;
     for (int i = 0; i < 14; ++i) {
         // Above and below the surface: nearer than 5 mm the near plane would cut it open.
         const Vec3 side = randomDirection(random);
@@ -162,11 +160,10 @@ TEST_F(HardCase16, FromWithinBoxesPicturesAreWhatTauAsksFor) {
         camera.up = randomDirection(random);
         const auto drawn = draw(camera, 1);
         const double promised = drawn.statistics.tauAchievedPixels;
-        infinite += std::isinf(promised) ? 1 : 0;
-        compared += check(source, camera, drawn, std::min(promised, 1.0), fmt::format("{}", i));
+        EXPECT_LE(promised, 1) << i;
+        compared += check(source, camera, drawn, promised, fmt::format("{}", i));
     }
     EXPECT_GT(compared, 14U * kWidth * kHeight / 2);
-    EXPECT_GT(infinite, 3);
 }
 
 TEST_F(HardCase16, RootsOfAnyErrorAreCutAndLeavesOfNoneAreDrawn) {
@@ -181,7 +178,8 @@ TEST_F(HardCase16, RootsOfAnyErrorAreCutAndLeavesOfNoneAreDrawn) {
         camera.eye = distance * randomDirection(random);
         camera.target = {0, 0, 0};
         const auto drawn = draw(camera, fabric::kMaxTauPixels);
-        EXPECT_EQ(drawn.statistics.tauAchievedPixels, 0) << distance;
+        // What single precision may make of corners counts near by.
+        EXPECT_LT(drawn.statistics.tauAchievedPixels, distance < 1 ? 0.5 : 1e-9) << distance;
         EXPECT_GT(drawn.statistics.nodes, distance > 1e6 ? 0U : 1U) << distance;
     }
 }
