@@ -105,7 +105,7 @@ double distanceToEdge(const Vec3& from, const Vec3& to) {
 }
 
 /// From the eye to a triangle in the view: to its inside where that is straight ahead of it, else
-/// to an edge.
+/// to an edge. A needle's normal is none to go by, but no inside is farther than its edges.
 double distanceTo(std::span<const Vec3, 3> corners) {
     const Vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     double nearest = kInfinity;
@@ -116,7 +116,8 @@ double distanceTo(std::span<const Vec3, 3> corners) {
         nearest = std::min(nearest, distanceToEdge(from, to));
         isAbove = isAbove && glm::dot(glm::cross(to - from, -from), normal) >= 0;
     }
-    return isAbove ? std::abs(glm::dot(normal, corners[0])) / glm::length(normal) : nearest;
+    return isAbove ? std::min(nearest, std::abs(glm::dot(normal, corners[0])) / glm::length(normal))
+                   : nearest;
 }
 
 /// In pixels, how far apart two points are at most that are `off` apart, when one is `depth` away
