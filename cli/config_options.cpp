@@ -85,12 +85,11 @@ void addScreenOptions(CLI::App& command, ConfigOptions& options) {
     command
         .add_option("--canvas", options.shown.canvas,
                     "Which of the configuration's canvases, by name or position (0, or #0 where "
-                    "another is named 0) "
-                    "[the first]")
+                    "another is named 0) [the first]")
         ->type_name("NAME");
     command
         .add_option("--segment", options.shown.segment,
-                    "Which of its segments, by name or position [the whole canvas]")
+                    "Which of its segments, by name or position, as canvases [the whole canvas]")
         ->type_name("NAME");
     command
         .add_option(

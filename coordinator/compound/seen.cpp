@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/compound/seen.h"
 
-#include <cmath>
 #include <limits>
 
 #include <glm/geometric.hpp>
