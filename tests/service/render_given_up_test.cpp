@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calls that are stopped, cut off or never read to their end.
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -50,6 +51,16 @@ struct IdleReaders {
             readers.back()->WaitForInitialMetadata();
         }
     }
+
+    /// Reads all to their ends. How many of them the service had given up.
+    int cancelled() const {
+        return static_cast<int>(std::ranges::count_if(readers, [](const auto& reader) {
+            v1::RenderChannelResponse message;
+            while (reader->Read(&message)) {
+            }
+            return reader->Finish().error_code() == grpc::StatusCode::CANCELLED;
+        }));
+    }
 };
 
 TEST_F(RenderGivenUpTest, ACallGivenUpBeforeItsTurnIsNotDrawn) {
@@ -92,10 +103,7 @@ TEST_F(RenderGivenUpTest, ReadersThatNeverReadAreGivenUpAfterAWhile) {
     ASSERT_TRUE(renderer->setFrameData(frameData(), soon()).ok());
     const IdleReaders idle(*stub, task(2000, 1300, true), ReplySlots::kMaxOpen + 1);
     EXPECT_TRUE(eventually([&] { return renderer->render(task(8, 8, false), soon()).ok(); }));
-    v1::RenderChannelResponse message;
-    while (idle.readers.front()->Read(&message)) {
-    }
-    EXPECT_EQ(idle.readers.front()->Finish().error_code(), grpc::StatusCode::CANCELLED);
+    EXPECT_GE(idle.cancelled(), 1);  // whichever came first: those read from now on are in time
     impatient.server->Shutdown();
 }
 
