@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF of any bytes: a .glb in which nothing is left to unpack, or a message.
+// glTF of any bytes: a .glb in which nothing is left to unpack, or a message; what it asks of its
+// readers, in messages that can be printed.
 #include <cstdint>
 #include <cstdlib>
 #include <span>
+#include <string>
 
+#include "access/printable.h"
+#include "renderer/import/gltf_extensions.h"
 #include "renderer/import/gltf_unpacking.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace eyrie;
     using namespace eyrie::import;
     const auto bytes = std::as_bytes(std::span(data, size));
+    if (const auto required = checkGltfExtensions(bytes); !required.ok()) {
+        const std::string message(required.message());
+        if (message != access::printableUtf8(message))
+            std::abort();
+    }
+    static_cast<void>(gltfCaveats(bytes));
     const auto glb = unpackGltf(bytes, "fuzzed.gltf");
     if (!glb.ok() || !*glb)
         return 0;

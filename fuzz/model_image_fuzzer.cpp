@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures on models in Silicon Graphics' format, of any bytes: refused, or as many texels as their
-// sides say. Other formats of pictures are read by stb, in a process of its own.
+// Pictures on models, of any bytes: in Silicon Graphics' format refused, or as many texels as their
+// sides say; of JPEGs where they end. All else of pictures is read by stb, in a process of its own.
 #include <cstdint>
 #include <cstdlib>
 #include <span>
 
+#include "renderer/import/jpeg_end.h"
 #include "renderer/import/sgi_image.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -15,6 +16,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto texels = import::decodeSgi(bytes, shape);
     if (texels.ok() ? texels->size() != std::size_t{shape.width} * shape.height
                     : texels.status().code() != absl::StatusCode::kInvalidArgument)
+        std::abort();
+    static_cast<void>(import::isOneJpegScan(bytes));
+    static_cast<void>(import::lacksJpegEnd(bytes));
+    if (import::lacksJpegEnd(import::withJpegEnd(bytes, "\xFF\xDA")))  // a scan, and its end
         std::abort();
     return 0;
 }
