@@ -43,7 +43,8 @@ Frame readFrame(const Statement& block, std::string_view what, ValueReader& read
           }},
          {"viewport", [&](const auto& each) { reader.fraction(each, frame.viewport); }},
          {"buffer", [&](const auto& each) { frame.buffers = readBuffers(each, reader); }},
-         {"buffers", [&](const auto& each) { frame.buffers = readBuffers(each, reader); }},
+         {"buffers", [&](const auto& each) { frame.buffers = readBuffers(each, reader); }, false,
+          "buffer"},
          {"zoom", [&](const auto& each) { readZoom(each, reader, frame.zoom); }}});
     return frame;
 }
@@ -232,8 +233,9 @@ public:
               }},
              {"task", [&](const auto& each) { readTasks(each, compound); }},
              {"eye", [&](const auto& each) { readEyes(each, compound); }},
-             buffers("buffer", compound),
-             buffers("buffers", compound),
+             {"buffer", [&](const auto& each) { readOwnBuffers(each, compound); }},
+             {"buffers", [&](const auto& each) { readOwnBuffers(each, compound); }, false,
+              "buffer"},
              {"viewport", [&](const auto& each) { reader_.fraction(each, compound.viewport); }},
              {"range", [&](const auto& each) { readRange(each, reader_, compound.range); }},
              {"period", [&](const auto& each) { number(each, reader_, 1, compound.period); }},
@@ -295,10 +297,8 @@ private:
                       {{"CYCLOP", &eyes.cyclop}, {"LEFT", &eyes.left}, {"RIGHT", &eyes.right}});
         compound.eyes = eyes;
     }
-    Entry buffers(std::string_view keyword, Compound& compound) {
-        return {keyword, [this, &compound](const Statement& each) {
-                    compound.buffers = readBuffers(each, reader_);
-                }};
+    void readOwnBuffers(const Statement& statement, Compound& compound) {
+        compound.buffers = readBuffers(statement, reader_);
     }
     Entry equalizer(std::string_view keyword, EqualizerKind kind, Compound& compound) {
         return {keyword, [this, kind, &compound](const Statement& each) {

@@ -133,7 +133,7 @@ Connection readConnection(const Statement& block, ValueReader& reader) {
                   {"hostname", text(connection.hostname)},
                   {"interface", text(connection.interfaceName)},
                   {"port", port},
-                  {"TCPIP_port", port},
+                  {"TCPIP_port", port, false, "port"},
                   {"bandwidth",
                    [&](const auto& each) {
                        readInVain(each, reader, kUnpaced, [&] {
@@ -141,7 +141,7 @@ Connection readConnection(const Statement& block, ValueReader& reader) {
                        });
                    }},
                   {"filename", text(connection.filename)},
-                  {"PIPE_filename", text(connection.filename)}});
+                  {"PIPE_filename", text(connection.filename), false, "filename"}});
     return connection;
 }
 

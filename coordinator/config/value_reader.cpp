@@ -66,7 +66,7 @@ void ValueReader::block(const Statement& block, std::string_view what,
         const bool isValue =
             statement.form == Statement::Form::Plain || statement.form == Statement::Form::List;
         if (entry != entries.end() && isValue && !entry->mayRepeat &&
-            !values.insert(entry->keyword).second)
+            !values.insert(entry->alias.empty() ? entry->keyword : entry->alias).second)
             givenAgain(statement);
         if (entry != entries.end())
             entry->read(statement);

@@ -20,7 +20,8 @@ namespace eyrie::config {
 struct Entry {
     std::string_view keyword;
     std::function<void(const Statement&)> read;
-    bool mayRepeat = false;  ///< a value that stands for one of several, as blocks do
+    bool mayRepeat = false;       ///< a value that stands for one of several, as blocks do
+    std::string_view alias = {};  ///< a keyword that sets the same
 };
 
 class ValueReader {

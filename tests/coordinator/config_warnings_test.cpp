@@ -25,6 +25,13 @@ TEST(EqcWarnings, SayWhichOfTwoValuesCounts) {
     EXPECT_EQ(Read("config { latency 1 latency 2 }").configuration.latency, 2);
     EXPECT_EQ(describe(Read("config { attributes { eye_base .1 eye_base .2 } }").findings, "f"),
               "f:1:35: warning: 'eye_base' is given again: what it was before does not count\n");
+    EXPECT_THAT(
+        describe(Read(withCompounds("compound { buffer [ COLOR ] buffers [ DEPTH ] }")).findings,
+                 "f"),
+        HasSubstr("'buffers' is given again"));
+    EXPECT_THAT(
+        describe(Read("config { appNode { connection { port 1 TCPIP_port 2 } } }").findings, "f"),
+        HasSubstr("'TCPIP_port' is given again"));
     const std::string canvas =
         "config { appNode { pipe { window { channel { name \"a\" } } } } layout { name \"x\" view "
         "{} } layout { name \"y\" view {} } canvas { layout \"x\" layout \"y\" segment { channel "
