@@ -67,11 +67,17 @@ absl::Status checkTaus(const std::vector<double>& taus, const std::vector<double
 bench::BenchFacts factsOf(const Options& options, const bench::RunPlan& plan,
                           const std::vector<bench::BenchRun>& runs) {
     const auto nameOf = [](const std::filesystem::path& path) { return path.filename().string(); };
-    return {nameOf(options.scene),   nameOf(options.flight),
-            plan.play.request.width, plan.play.request.height,
-            options.frames,          options.repeats,
-            bench::commandLine(),    cli::nameOf(options.occlusion),
-            plan.flight.hash(),      runs.front().sceneHash};
+    return {nameOf(options.scene),
+            nameOf(options.flight),
+            plan.play.request.width,
+            plan.play.request.height,
+            options.frames,
+            options.repeats,
+            bench::commandLine(),
+            cli::nameOf(options.occlusion),
+            wordsOf(options.pictures.config),
+            plan.flight.hash(),
+            runs.front().sceneHash};
 }
 
 /// In their order, each once.
@@ -252,7 +258,8 @@ void addCompareOptions(CLI::App& command, Options& options) {
         ->expected(2)
         ->excludes("scene");
     command
-        .add_flag("--force", options.force, "Compare though scene, flight, size or frames differ")
+        .add_flag("--force", options.force,
+                  "Compare though scene, flight, size, frames or what is seen differ")
         ->needs("--compare");
 }
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -24,6 +26,21 @@ namespace {
 
 using compound::Eye;
 using compound::Stereo;
+
+// Names, not CLI11's own of std::optional<Eye>, which it would turn into no text at all.
+const std::map<std::string, Eye> kEyes = {
+    {"cyclop", Eye::Cyclop}, {"left", Eye::Left}, {"right", Eye::Right}};
+const std::map<std::string, Stereo> kStereo = {{"anaglyph", Stereo::Anaglyph},
+                                               {"side-by-side", Stereo::SideBySide},
+                                               {"top-bottom", Stereo::TopBottom}};
+
+/// Empty where none of the names is that of `value`.
+template <typename Value, typename Known>
+std::string nameIn(const std::map<std::string, Known>& names, const Value& value) {
+    const auto found =
+        std::ranges::find_if(names, [&](auto& each) { return each.second == value; });
+    return found == names.end() ? "" : found->first;
+}
 
 /// The layout goes to the front of the list of the canvas that is seen.
 absl::Status showLayout(const ConfigOptions& options, config::Configuration& configuration) {
@@ -79,9 +96,6 @@ void addConfigOptions(CLI::App& command, ConfigOptions& options) {
 }
 
 void addScreenOptions(CLI::App& command, ConfigOptions& options) {
-    // Not of std::optional<Eye>, which CLI11 would turn into no text at all.
-    static const std::map<std::string, Eye> kEyes = {
-        {"cyclop", Eye::Cyclop}, {"left", Eye::Left}, {"right", Eye::Right}};
     command
         .add_option("--canvas", options.shown.canvas,
                     "Which of the configuration's canvases, by name or position (0, or #0 where "
@@ -102,9 +116,6 @@ void addScreenOptions(CLI::App& command, ConfigOptions& options) {
 }
 
 void addShownOptions(CLI::App& command, ConfigOptions& options) {
-    static const std::map<std::string, Stereo> kStereo = {{"anaglyph", Stereo::Anaglyph},
-                                                          {"side-by-side", Stereo::SideBySide},
-                                                          {"top-bottom", Stereo::TopBottom}};
     addScreenOptions(command, options);
     command
         .add_option("--stereo", options.shown.stereo,
@@ -115,6 +126,23 @@ void addShownOptions(CLI::App& command, ConfigOptions& options) {
     command.add_flag("--one-channel", options.oneChannel,
                      "Draw each destination by its own channel, without compounds: what every "
                      "configuration's picture is to equal");
+}
+
+std::string wordsOf(const ConfigOptions& options) {
+    std::vector<std::string> words;
+    const auto add = [&](std::string_view option, const std::string& value) {
+        if (!value.empty())
+            words.push_back(fmt::format("{} {}", option, value));
+    };
+    add("--config", std::filesystem::path(options.file).filename().string());
+    add("--canvas", options.shown.canvas);
+    add("--segment", options.shown.segment);
+    add("--layout", options.layout);
+    add("--eye", nameIn(kEyes, options.shown.eye));
+    add("--stereo", nameIn(kStereo, options.shown.stereo));
+    if (options.oneChannel)
+        words.emplace_back("--one-channel");
+    return fmt::format("{}", fmt::join(words, " "));
 }
 
 absl::StatusOr<std::optional<config::Configuration>> configurationOf(const ConfigOptions& options,

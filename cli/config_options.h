@@ -34,6 +34,9 @@ void addScreenOptions(CLI::App& command, ConfigOptions& options);
 /// Those, --stereo and --one-channel.
 void addShownOptions(CLI::App& command, ConfigOptions& options);
 
+/// What is seen, and by whom, in the words of those options; empty where none is given.
+std::string wordsOf(const ConfigOptions& options);
+
 /// What is told, on standard error, of what is found in a file.
 enum class Told {
     All,

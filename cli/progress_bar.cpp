@@ -57,12 +57,15 @@ void ProgressBar::show(std::string_view stage, double fraction, Clock::time_poin
     if (newStage) {
         stage_ = stage;
         stageBegin_ = now;
+        hasEnded_ = false;
         if (style_ == Style::Lines)
             fmt::print(out_, "{}: {}\n", title_, stage);
         if (style_ == Style::Log)
             cli::tell(fmt::format("{}: {}", title_, stage));
     }
-    if (!newStage && now - lastDrawn_ < kRedrawInterval)
+    const bool ends = fraction >= 1 && !hasEnded_;
+    hasEnded_ = hasEnded_ || ends;
+    if (!newStage && !ends && now - lastDrawn_ < kRedrawInterval)
         return;
     if (style_ == Style::Bar)
         draw(std::clamp(fraction, 0.0, 1.0), now);
@@ -84,9 +87,8 @@ void ProgressBar::tell(double fraction, Clock::time_point now) {
     lastDrawn_ = now;
 }
 
-import::Progress ProgressBar::callback(){
-    return [this](std::string_view stage, double fraction){show(stage, fraction, Clock::now());
-};  // namespace eyrie::cli
+auto ProgressBar::callback() -> import::Progress {
+    return [this](std::string_view stage, double fraction) { show(stage, fraction, Clock::now()); };
 }
 
 }  // namespace eyrie::cli

@@ -47,6 +47,7 @@ private:
     std::string stage_;
     Clock::time_point stageBegin_{};
     Clock::time_point lastDrawn_{};
+    bool hasEnded_ = false;  ///< the end of the stage has been shown
     bool lineOpen_ = false;
 };
 

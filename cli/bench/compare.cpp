@@ -225,6 +225,12 @@ std::string differenceOf(const WrittenReport& a, const WrittenReport& b) {
     };
     if (key(a) != key(b))
         return said(a) + "; " + said(b);
+    const auto screen = [](const WrittenReport& report) {
+        return fmt::format("{} is of {}", report.name,
+                           report.seen->empty() ? "what is seen without --config" : *report.seen);
+    };
+    if (a.seen && b.seen && a.seen != b.seen)
+        return screen(a) + "; " + screen(b);
     return areOther(a.flightHash, b.flightHash)
                ? fmt::format("{} and {} are of other flights that are both named {}", a.name,
                              b.name, a.flight)

@@ -96,7 +96,8 @@ std::vector<Files> places(const std::string& imported, const std::optional<Files
         for (Files like; !(like = takeNamedLike(*recorded, given)).empty();)
             candidates.push_back(std::move(like));
         candidates.push_back(*recorded);
-        candidates.push_back(beside(imported, *recorded));
+        if (Files neighbours = beside(imported, *recorded); neighbours != *recorded)
+            candidates.push_back(std::move(neighbours));
         return candidates;
     }
     candidates.push_back(given);

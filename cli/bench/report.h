@@ -22,6 +22,7 @@ struct BenchFacts {
     int repeats = 0;
     std::string command;             ///< that does it again
     std::string occlusion = "auto";  ///< as it was asked for
+    std::string seen = {};           ///< which screen, in options' words; empty: the one there is
     std::uint64_t flightHash = 0;    ///< NamedFlight::hash
     std::uint64_t sceneHash = 0;     ///< of the data's contents, and of where they stand
 };

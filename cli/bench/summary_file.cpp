@@ -139,6 +139,8 @@ WrittenReport reportOf(const Field& field) {
     report.frames = bench.at("frames").count();
     report.command = bench.at("command").text();
     report.occlusion = bench.at("occlusion").text();
+    if (bench.has("seen"))
+        report.seen = bench.at("seen").text();
     if (bench.has("flightHash"))
         report.flightHash = bench.at("flightHash").text();
     if (bench.has("sceneHash"))

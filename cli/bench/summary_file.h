@@ -48,8 +48,9 @@ struct WrittenReport {
     std::string device;
     std::string command;
     std::string occlusion;
-    std::string flightHash;  ///< BenchFacts'; empty in reports of before it was told
-    std::string sceneHash;   ///< likewise
+    std::optional<std::string> seen;  ///< likewise
+    std::string flightHash;           ///< BenchFacts'; empty in reports of before it was told
+    std::string sceneHash;            ///< likewise
     std::vector<WrittenRun> runs;
 };
 

@@ -134,6 +134,7 @@ JsonObject toJson(const BenchFacts& facts) {
         .count("repeats", static_cast<std::uint64_t>(facts.repeats))
         .text("command", facts.command)
         .text("occlusion", facts.occlusion)
+        .text("seen", facts.seen)
         .text("flightHash", fmt::format("{:016x}", facts.flightHash))
         .text("sceneHash", fmt::format("{:016x}", facts.sceneHash));
     return json;

@@ -337,6 +337,17 @@ TEST_F(CompareReports, FlightsOfOneNameThatAreNotTheSameAreRefused) {
     EXPECT_TRUE(compare(before, written(other, "b.json").value(), false).ok()) << "nobody knows";
 }
 
+TEST_F(CompareReports, OtherScreensAreRefused) {
+    Report other = reportTaking(20);
+    other.facts.seen = "--config cave.eqc --segment 2";
+    EXPECT_THAT(std::string(compared(reportTaking(20), other).status().message()),
+                testing::AllOf(HasSubstr("--segment 2"), HasSubstr("--force")));
+    EXPECT_TRUE(compared(reportTaking(20), other, true).ok());
+    WrittenReport before = written(reportTaking(20), "a.json").value();
+    before.seen.reset();
+    EXPECT_TRUE(compare(before, written(other, "b.json").value(), false).ok()) << "nobody knows";
+}
+
 TEST_F(CompareReports, DataOfOneNameThatAreNotTheSameAreSaid) {
     Report other = reportTaking(20);
     EXPECT_THAT(compared(reportTaking(20), other)->notes, testing::IsEmpty());

@@ -9,6 +9,10 @@ const measuredPromiseOf = (run) => (run.budgetMs > 0 ? run.errorPx.promised : er
 /** Of a scale of powers, which has no place for 0. */
 const isOnAxis = (run) => errorOf(run) !== 0;
 
+/** Along the axis, whatever the order they were measured in; what promises nothing comes last. */
+const byError = (list, error = errorOf) =>
+  [...list].sort((a, b) => (error(a) ?? Infinity) - (error(b) ?? Infinity));
+
 /** Says which runs a drawing leaves out; nothing where it has them all. */
 function sayLeftOut(place, left) {
   if (left.length === 0) return;

@@ -20,7 +20,7 @@ function drawBoth(place) {
   for (const [, list] of series(shown))
     for (const [side, colour, offset, dashes] of [["a", "var(--quiet)", -4, "5 4"], ["b", "var(--time)", 4, "none"]]) {
       const at = (run, ms) => [axes.x(errorOf(run[side])) + offset, axes.y(ms)];
-      svg.append(curve(list.map((run) => at(run, run[side].p50)), colour, { "stroke-dasharray": dashes }));
+      svg.append(curve(byError(list, (run) => errorOf(run[side])).map((run) => at(run, run[side].p50)), colour, { "stroke-dasharray": dashes }));
       for (const run of list) {
         for (const pass of run[side].passes) {
           const [cx, cy] = at(run, pass.p50);

@@ -84,7 +84,7 @@ function drawCurve(place) {
   const svg = drawing(930, 430, `Frame time against error. ${shown.map((run) =>
     `${run.label}, ${processes(run)}: ${number(run.frameMs.p50)} milliseconds, promised ${number(errorOf(run))} pixels`).join("; ")}.`);
   const axes = curveAxes(svg, box, all, Math.max(...shown.map((run) => run.frameMs.p95)) * 1.12);
-  const groups = series(shown);
+  const groups = series(byError(shown));
   const own = groups.map(([, list]) => list.filter((run) => measured.includes(run))).find((list) => list.length > 0);
   if (own) drawMeasured(svg, own, axes);
   groups.forEach(([, list], i) => drawSeries(svg, list, seriesColours[i % 4], axes, groups.length === 1));

@@ -19,8 +19,10 @@ function fillTiles(list) {
   if (run.errorPx)
     list.append(tile(number(run.errorPx.max), "px", run.measuredWithinPromise ? `worst pixel measured against the source${shareOfPromise(run) && `, ${shareOfPromise(run)} of the promise and what rasterisation rounds`}` : `worst pixel measured; the promise was broken: ${breachOf(run)}`,
                      run.measuredWithinPromise ? "truth" : "bad"));
-  if (run.efficiency) list.append(tile(`${number(run.efficiency, 2)}×`, "fewer", "triangles than uniform decimation has in view at the same measured p99 error", "truth"));
-  else list.append(tile(compact(run.trianglesMean + run.pointsMean), "", run.pointsMean > 0 ? "triangles and points a frame, in the mean" : "triangles a frame, in the mean"));
+  if (run.efficiency) {
+    const isFewer = run.efficiency >= 1;
+    list.append(tile(`${number(isFewer ? run.efficiency : 1 / run.efficiency, 2)}×`, isFewer ? "fewer" : "more", "triangles than uniform decimation has in view at the same measured p99 error", isFewer ? "truth" : ""));
+  } else list.append(tile(compact(run.trianglesMean + run.pointsMean), "", run.pointsMean > 0 ? "triangles and points a frame, in the mean" : "triangles a frame, in the mean"));
 }
 
 /** [group, [name, value of a run], ...]: rows of the table. */
@@ -41,8 +43,8 @@ function rowGroups() {
       ["medians of the passes, least to most", (run) => `${number(Math.min(...run.passes.map((pass) => pass.p50)))} – ${number(Math.max(...run.passes.map((pass) => pass.p50)))}`]],
     ["From a view to its picture, warm, ms", ["median", latency("p50")], ["p95", latency("p95")], ["frames in flight, at most", (run) => number(run.framesInFlight)]],
     ["First pass, ms a frame", ["median", first("p50")], ["p95", first("p95")], ["p99", first("p99")], ["longest", first("max")], ["loaded", (run) => mebibytes(run.bytesLoadedFirstPass)]],
-    ["Work", ["triangles a warm frame, mean", (run) => number(run.trianglesMean)], ["points a warm frame, mean", (run) => number(run.pointsMean)], ["triangles and points a measured frame, mean", measured((run) => number(run.trianglesMeasured))], ["times fewer than uniform decimation has in view", (run) => (run.efficiency ? `${number(run.efficiency, 2)}×` : (run.efficiencyMissing ?? "–"))],
-      ["times fewer than all of uniform decimation", (run) => (run.efficiencyWhole ? `${number(run.efficiencyWhole, 2)}×` : "–")],
+    ["Work", ["triangles a warm frame, mean", (run) => number(run.trianglesMean)], ["points a warm frame, mean", (run) => number(run.pointsMean)], ["triangles and points a measured frame, mean", measured((run) => number(run.trianglesMeasured))], ["triangles of uniform decimation in view, times these", (run) => (run.efficiency ? `${number(run.efficiency, 2)}×` : (run.efficiencyMissing ?? "–"))],
+      ["triangles of all of uniform decimation, times these", (run) => (run.efficiencyWhole ? `${number(run.efficiencyWhole, 2)}×` : "–")],
       ["loaded in all passes", (run) => mebibytes(run.bytesLoaded)], ["memory, at most", (run) => mebibytes(run.peakResidentBytes)],
       ["takes longest", (run) => run.limitingStage || "–"], ["the bench itself, of the frames’ time", (run) => `${number(run.overheadPercent, 2)} %`]],
   ];

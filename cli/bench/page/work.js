@@ -44,7 +44,7 @@ function trianglePoints() {
   const isMeasured = measured.length > 0;
   const trianglesOf = (run) => (isMeasured ? run.trianglesMeasured : run.trianglesMean + run.pointsMean);
   const first = chosen.filter((run) => run.renderers === chosen[0].renderers && trianglesOf(run) > 0);
-  return { isMeasured, points: first.map((run) => ({ run, error: isMeasured ? run.errorPx.p99 : errorOf(run), triangles: trianglesOf(run) })) };
+  return { isMeasured, points: byError(first.map((run) => ({ run, error: isMeasured ? run.errorPx.p99 : errorOf(run), triangles: trianglesOf(run) })), ({ error }) => error) };
 }
 
 /** From a run down from what uniform decimation needs for the same error. */
