@@ -38,6 +38,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const auto& [name, material] : objMaterialsOf(text))
         if (withoutPercents(material.texture.name).size() > material.texture.name.size())
             std::abort();
+    if (mtlForAssimp(mtlForAssimp(text)) != mtlForAssimp(text))
+        std::abort();
     (void)countRecoloured3mfObjects(text);
     const auto stl = stlForAssimp(bytes);
     if (stl && (stl->size() != size || wrongLengthOfStl(std::as_bytes(std::span(*stl)))))

@@ -94,8 +94,7 @@ public:
             return MendedFiles::Open(name, mode);
         const std::string found = findTexture(asNamed(name), path_);
         const auto file = mesh::MappedFile::open(found.empty() ? name : found);
-        return file.ok() ? streamOf(fromFirstMaterial(textOf(*file)))
-                         : MendedFiles::Open(name, mode);
+        return file.ok() ? streamOf(mtlForAssimp(textOf(*file))) : MendedFiles::Open(name, mode);
     }
 
 private:

@@ -146,8 +146,11 @@ void mendNumbers(std::string_view line, std::size_t first, const VertexKinds& ki
         mended.replace(first + from, unread.size(), "");
     mendPoints(line.substr(to, comment - to), first + to, mended);
     const std::string_view more = vertex.haveNoColour() ? kinds.white : std::string_view();
-    if (comment < line.size() || !more.empty())
-        mended.replace(first + comment, line.size() - comment, more);
+    std::size_t end = comment;  // what is left does not go on with the next line
+    const std::size_t least = unread.empty() ? 0 : to;
+    while (end > least && comment < line.size() && line[end - 1] == '\\') --end;
+    if (end < line.size() || !more.empty())
+        mended.replace(first + end, line.size() - end, more);
 }
 
 /// Of several files on a line Assimp reads none.
@@ -179,9 +182,29 @@ std::size_t endOfByteOrderMarks(std::string_view obj) {
     return at;
 }
 
-}  // namespace
+/// With lines of numbers in one that go on behind a backslash, and without that mark at the end of
+/// comments, which Assimp lets go on, too; nothing where there is neither.
+std::optional<std::string> withWholeLines(std::string_view obj) {
+    std::optional<std::string> whole;
+    std::string_view text = obj;
+    for (std::size_t at = text.find('\\'); at != text.npos; at = text.find('\\', at + 1)) {
+        const std::string_view behind = text.substr(at + 1);
+        const std::size_t end = behind.starts_with("\r\n") ? 2 : behind.starts_with('\n') ? 1 : 0;
+        const std::size_t begin = text.find_last_of("\r\n", at) + 1;
+        const std::string_view line = withoutIndent(text.substr(begin, at - begin));
+        const bool isComment = line.find('#') != line.npos;
+        if (end == 0 || (!isComment && !hasNumbers(line)))
+            continue;
+        if (!whole)
+            whole = std::string(obj);
+        const std::size_t length = isComment ? 1 : 1 + end;
+        whole->replace(at, length, length, ' ');
+        text = *whole;
+    }
+    return whole;
+}
 
-std::optional<std::string> objForAssimp(std::string_view obj) {
+std::optional<std::string> mendedLines(std::string_view obj) {
     MendedText mended(obj);
     const std::size_t at = endOfByteOrderMarks(obj);
     if (at > 0)
@@ -193,7 +216,19 @@ std::optional<std::string> objForAssimp(std::string_view obj) {
     return mended.finish();
 }
 
-std::vector<std::string> objVertexCaveats(std::string_view obj) {
+}  // namespace
+
+std::optional<std::string> objForAssimp(std::string_view obj) {
+    std::optional<std::string> whole = withWholeLines(obj);
+    if (!whole)
+        return mendedLines(obj);
+    std::optional<std::string> mended = mendedLines(*whole);
+    return mended ? mended : whole;
+}
+
+std::vector<std::string> objVertexCaveats(std::string_view text) {
+    const std::optional<std::string> whole = withWholeLines(text);
+    const std::string_view obj = whole ? std::string_view(*whole) : text;
     const VertexKinds kinds = kindsOf(obj, endOfByteOrderMarks(obj));
     std::vector<std::string> caveats;
     if (kinds.ofNoKind > 0)

@@ -9,6 +9,10 @@
 #include <iterator>
 #include <system_error>
 
+#include <fmt/format.h>
+
+#include "renderer/import/mended_text.h"
+
 namespace eyrie::import {
 namespace {
 
@@ -48,6 +52,21 @@ void takeNumbers(std::string_view& text, glm::vec2& numbers) {
             numbers[i] = number;
         text = rest;
     }
+}
+
+/// Takes `word` from the front of `text`, or nothing.
+bool takeWordIf(std::string_view& text, std::string_view word) {
+    std::string_view rest = text;
+    if (takeWord(rest) != word)
+        return false;
+    text = rest;
+    return true;
+}
+
+bool isNumber(std::string_view word) {
+    float number = 0;
+    const auto parsed = std::from_chars(word.data(), word.data() + word.size(), number);
+    return parsed.ec == std::errc() && parsed.ptr == word.data() + word.size();
 }
 
 bool isInAnyCase(std::string_view word, std::string_view lowerCase) {
@@ -150,6 +169,26 @@ std::string_view fromFirstMaterial(std::string_view mtl) {
         mtl = rest;
     }
     return mtl;
+}
+
+std::string mtlForAssimp(std::string_view mtl) {
+    constexpr std::array<std::string_view, 5> kColours = {"Kd", "kd", "Ka", "Ks", "Ke"};
+    constexpr std::string_view kHalo = "-halo";
+    const std::string_view whole = fromFirstMaterial(mtl);
+    MendedText mended(whole);
+    for (std::string_view left = whole; !left.empty();) {
+        std::string_view rest = takeLine(left);
+        rest = trimmed(rest.substr(0, rest.find('#')));
+        const std::string_view keyword = takeWord(rest);
+        const auto at = static_cast<std::size_t>(rest.data() - whole.data());
+        if (std::ranges::count(kColours, keyword) > 0 && isNumber(rest))
+            mended.replace(at + rest.size(), 0, fmt::format(" {} {}", rest, rest));
+        while (keyword == "d" && takeWordIf(rest, kHalo)) {
+        }
+        if (const auto end = static_cast<std::size_t>(rest.data() - whole.data()); end > at)
+            mended.replace(at, end - at, "");
+    }
+    return mended.finish().value_or(std::string(whole));
 }
 
 std::map<std::string, ObjMaterial> objMaterialsOf(std::string_view mtl) {

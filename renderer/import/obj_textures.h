@@ -39,6 +39,10 @@ std::vector<std::string> librariesOfObj(std::string_view obj);
 /// seven; it takes an empty one.
 std::string_view fromFirstMaterial(std::string_view mtl);
 
+/// What Assimp is to read of a material file: that, colours of one number as the three that they
+/// stand for, and opacities without `-halo`, which it takes for a number.
+std::string mtlForAssimp(std::string_view mtl);
+
 /// What an .mtl file says of a material.
 struct ObjMaterial {
     bool hasColour = false;  ///< Kd

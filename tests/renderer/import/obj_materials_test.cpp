@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -100,6 +101,33 @@ TEST(ObjMaterials, TakesMaterialsHoweverTheirFileBegins) {
         ASSERT_TRUE(mesh.ok()) << begin << ": " << mesh.status();
         EXPECT_EQ(mesh->images.size(), 1U) << begin;
         EXPECT_EQ(mesh->colours[0], (fabric::Rgba{255, 0, 0, 255})) << begin;
+    }
+}
+
+TEST(ObjMaterials, TakesOneNumberForAllThreeAndPassesHalosOver) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    for (const char* opacity : {"", "d -halo 1\n"}) {
+        test::writeFile(folder.file("m.mtl"),
+                        std::string("newmtl tiles\r\n") + opacity + "Kd 1  # white\nKs .5\n");
+        const auto mesh = readMesh(folder.file("m.obj"));
+        ASSERT_TRUE(mesh.ok()) << opacity << mesh.status();
+        EXPECT_EQ(mesh->colours[0], (fabric::Rgba{255, 255, 255, 255})) << opacity;
+    }
+}
+
+TEST(ObjVertices, GoOnWithTheNextLineBehindABackslash) {
+    const test::TemporaryFolder folder;
+    for (const char* end : {"\\\n", "\\\r\n"}) {
+        test::writeFile(folder.file("m.obj"),
+                        fmt::format("# C:\\a\\\nv 0 0 {0}0 1 0 0\nv 1 0 0 {0} 1 0 0\n"
+                                    "v 0 1 0 1 0 0\nf 1 2 {0}3\n",
+                                    end));
+        const auto mesh = readMesh(folder.file("m.obj"));
+        ASSERT_TRUE(mesh.ok()) << mesh.status();
+        ASSERT_EQ(mesh->positions.size(), 3U);
+        for (const fabric::Rgba& colour : mesh->colours)
+            EXPECT_EQ(colour, (fabric::Rgba{255, 0, 0, 255}));
     }
 }
 
