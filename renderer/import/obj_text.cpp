@@ -27,6 +27,9 @@ bool hasNumbers(std::string_view line) {
     return std::ranges::count(kKeywords, line.substr(0, line.find_first_of(kBlank))) > 0;
 }
 
+/// Of its place, and of what more is told of it there.
+bool isVertex(std::string_view line) { return line.substr(0, line.find_first_of(kBlank)) == "v"; }
+
 /// What begins otherwise goes on with the line before it, or says nothing.
 bool hasKeyword(std::string_view line) { return !line.empty() && line[0] >= 'a' && line[0] <= 'z'; }
 
@@ -44,9 +47,9 @@ void mendPoints(std::string_view numbers, std::size_t first, MendedText& mended)
 class VertexNumbers {
 public:
     explicit VertexNumbers(std::string_view line) : line_(line.substr(0, line.find('#'))) {
-        const std::size_t keyword = std::min(line_.find_first_of(kBlank), line_.size());
-        if (line_.substr(0, keyword) != "v")
+        if (!isVertex(line_))
             return;
+        const std::size_t keyword = std::min(line_.find_first_of(kBlank), line_.size());
         for (std::size_t at = line_.find_first_not_of(kBlank, keyword);
              at < line_.size() && count_ < numbers_.size(); ++count_) {
             const std::size_t end = std::min(line_.find_first_of(kBlank, at), line_.size());
@@ -182,7 +185,7 @@ std::size_t endOfByteOrderMarks(std::string_view obj) {
     return at;
 }
 
-/// With lines of numbers in one that go on behind a backslash, and without that mark at the end of
+/// With vertices on one line that go on behind a backslash, and without that mark at the end of
 /// comments, which Assimp lets go on, too; nothing where there is neither.
 std::optional<std::string> withWholeLines(std::string_view obj) {
     std::optional<std::string> whole;
@@ -193,7 +196,7 @@ std::optional<std::string> withWholeLines(std::string_view obj) {
         const std::size_t begin = text.find_last_of("\r\n", at) + 1;
         const std::string_view line = withoutIndent(text.substr(begin, at - begin));
         const bool isComment = line.find('#') != line.npos;
-        if (end == 0 || (!isComment && !hasNumbers(line)))
+        if (end == 0 || (!isComment && !isVertex(line)))
             continue;
         if (!whole)
             whole = std::string(obj);
