@@ -189,21 +189,24 @@ std::size_t endOfByteOrderMarks(std::string_view obj) {
 /// comments, which Assimp lets go on, too; nothing where there is neither.
 std::optional<std::string> withWholeLines(std::string_view obj) {
     std::optional<std::string> whole;
-    std::string_view text = obj;
-    for (std::size_t at = text.find('\\'); at != text.npos; at = text.find('\\', at + 1)) {
-        const std::string_view behind = text.substr(at + 1);
+    bool goesOn = false, isOfVertex = false, isComment = false;
+    forEachLine(obj, endOfByteOrderMarks(obj), [&](std::string_view part, std::size_t first) {
+        if (first > 0 && obj.substr(first - 1).starts_with("\r\n"))
+            return;  // the end of the part before
+        if (!goesOn)
+            isOfVertex = isVertex(withoutIndent(part));
+        isComment = (goesOn && isComment) || part.find('#') != part.npos;
+        goesOn = false;
+        const std::string_view behind = obj.substr(first + part.size());
         const std::size_t end = behind.starts_with("\r\n") ? 2 : behind.starts_with('\n') ? 1 : 0;
-        const std::size_t begin = text.find_last_of("\r\n", at) + 1;
-        const std::string_view line = withoutIndent(text.substr(begin, at - begin));
-        const bool isComment = line.find('#') != line.npos;
-        if (end == 0 || (!isComment && !isVertex(line)))
-            continue;
+        if (!part.ends_with('\\') || end == 0 || (!isComment && !isOfVertex))
+            return;
         if (!whole)
             whole = std::string(obj);
-        const std::size_t length = isComment ? 1 : 1 + end;
-        whole->replace(at, length, length, ' ');
-        text = *whole;
-    }
+        goesOn = !isComment;
+        const std::size_t length = goesOn ? 1 + end : 1;
+        whole->replace(first + part.size() - 1, length, length, ' ');
+    });
     return whole;
 }
 
