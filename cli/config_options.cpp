@@ -27,12 +27,19 @@ namespace {
 using compound::Eye;
 using compound::Stereo;
 
-// Names, not CLI11's own of std::optional<Eye>, which it would turn into no text at all.
-const std::map<std::string, Eye> kEyes = {
-    {"cyclop", Eye::Cyclop}, {"left", Eye::Left}, {"right", Eye::Right}};
-const std::map<std::string, Stereo> kStereo = {{"anaglyph", Stereo::Anaglyph},
-                                               {"side-by-side", Stereo::SideBySide},
-                                               {"top-bottom", Stereo::TopBottom}};
+/// Not of std::optional<Eye>, which CLI11 would turn into no text at all.
+const std::map<std::string, Eye>& eyeNames() {
+    static const std::map<std::string, Eye> names = {
+        {"cyclop", Eye::Cyclop}, {"left", Eye::Left}, {"right", Eye::Right}};
+    return names;
+}
+
+const std::map<std::string, Stereo>& stereoNames() {
+    static const std::map<std::string, Stereo> names = {{"anaglyph", Stereo::Anaglyph},
+                                                        {"side-by-side", Stereo::SideBySide},
+                                                        {"top-bottom", Stereo::TopBottom}};
+    return names;
+}
 
 /// Empty where none of the names is that of `value`.
 template <typename Value, typename Known>
@@ -111,7 +118,7 @@ void addScreenOptions(CLI::App& command, ConfigOptions& options) {
             "Which of its layouts it shows, by name or position among all layouts [its first]")
         ->type_name("NAME");
     command.add_option("--eye", options.shown.eye, "What one eye sees [what the view shows]")
-        ->transform(valueOf(kEyes))
+        ->transform(valueOf(eyeNames()))
         ->type_name("left|right|cyclop");
 }
 
@@ -120,7 +127,7 @@ void addShownOptions(CLI::App& command, ConfigOptions& options) {
     command
         .add_option("--stereo", options.shown.stereo,
                     "How two eyes are put into one picture [as the configuration says]")
-        ->transform(valueOf(kStereo))
+        ->transform(valueOf(stereoNames()))
         ->excludes("--eye")
         ->type_name("anaglyph|side-by-side|top-bottom");
     command.add_flag("--one-channel", options.oneChannel,
@@ -138,8 +145,8 @@ std::string wordsOf(const ConfigOptions& options) {
     add("--canvas", options.shown.canvas);
     add("--segment", options.shown.segment);
     add("--layout", options.layout);
-    add("--eye", nameIn(kEyes, options.shown.eye));
-    add("--stereo", nameIn(kStereo, options.shown.stereo));
+    add("--eye", nameIn(eyeNames(), options.shown.eye));
+    add("--stereo", nameIn(stereoNames(), options.shown.stereo));
     if (options.oneChannel)
         words.emplace_back("--one-channel");
     return fmt::format("{}", fmt::join(words, " "));

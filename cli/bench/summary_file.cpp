@@ -10,6 +10,7 @@
 #include <google/protobuf/struct.pb.h>
 #include <google/protobuf/util/json_util.h>
 
+#include "access/printable.h"
 #include "cli/text_file.h"
 #include "fabric/status.h"
 
@@ -42,7 +43,7 @@ public:
     }
     std::string text() const {
         expect(Value::kStringValue, "a text");
-        return value_->string_value();
+        return access::printableUtf8(value_->string_value());  // whoever wrote the file
     }
     /// At least 0. JSON has no infinity: null stands for it.
     double number() const {

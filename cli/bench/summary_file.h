@@ -48,8 +48,8 @@ struct WrittenReport {
     std::string device;
     std::string command;
     std::string occlusion;
-    std::optional<std::string> seen;  ///< likewise
-    std::string flightHash;           ///< BenchFacts'; empty in reports of before it was told
+    std::optional<std::string> seen;  ///< BenchFacts'; nothing in reports of before it was told
+    std::string flightHash;           ///< likewise, empty
     std::string sceneHash;            ///< likewise
     std::vector<WrittenRun> runs;
 };

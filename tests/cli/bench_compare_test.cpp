@@ -343,6 +343,10 @@ TEST_F(CompareReports, OtherScreensAreRefused) {
     EXPECT_THAT(std::string(compared(reportTaking(20), other).status().message()),
                 testing::AllOf(HasSubstr("--segment 2"), HasSubstr("--force")));
     EXPECT_TRUE(compared(reportTaking(20), other, true).ok());
+    other.facts.seen = "\x1b[31m";
+    EXPECT_THAT(std::string(compared(reportTaking(20), other).status().message()),
+                HasSubstr("\\x1b[31m"))
+        << "what a report says is fit for a terminal";
     WrittenReport before = written(reportTaking(20), "a.json").value();
     before.seen.reset();
     EXPECT_TRUE(compare(before, written(other, "b.json").value(), false).ok()) << "nobody knows";

@@ -317,7 +317,9 @@ std::string written(ProgressBar::Style style) {
         bar.show("reading", 0, start);
         bar.show("reading", 0.25, start + milliseconds(1));  // too soon to be drawn again
         bar.show("reading", 0.5, start + milliseconds(1000));
-        bar.show("writing", 0, start + milliseconds(1001));
+        bar.show("reading", 1, start + milliseconds(1001));  // the end, however soon, and once
+        bar.show("reading", 1, start + milliseconds(1002));
+        bar.show("writing", 0, start + milliseconds(1003));
     }
     std::fclose(out);
     const std::string result(text, size);
@@ -333,6 +335,7 @@ TEST(ProgressBar, WritesJsonForPrograms) {
     EXPECT_EQ(written(ProgressBar::Style::Json),
               "{\"stage\": \"reading\", \"fraction\": 0}\n"
               "{\"stage\": \"reading\", \"fraction\": 0.5}\n"
+              "{\"stage\": \"reading\", \"fraction\": 1}\n"
               "{\"stage\": \"writing\", \"fraction\": 0}\n");
 }
 

@@ -9,7 +9,7 @@ const measuredPromiseOf = (run) => (run.budgetMs > 0 ? run.errorPx.promised : er
 /** Of a scale of powers, which has no place for 0. */
 const isOnAxis = (run) => errorOf(run) !== 0;
 
-/** Along the axis, whatever the order they were measured in; what promises nothing comes last. */
+/** Along the axis, whatever the order they were measured in; what has no bound comes last. */
 const byError = (list, error = errorOf) =>
   [...list].sort((a, b) => (error(a) ?? Infinity) - (error(b) ?? Infinity));
 
