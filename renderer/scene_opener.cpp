@@ -97,7 +97,7 @@ absl::StatusOr<std::vector<SceneOpener::File>> SceneOpener::openFiles(
         if (absl::IsResourceExhausted(file.status()))
             return absl::ResourceExhaustedError(fmt::format(
                 "{}; the indices of the scene's files may take {} bytes of host memory: raise the "
-                "limit (--host-memory of eyrie renderer), or open fewer or smaller files",
+                "limit (--host-memory), or open fewer or smaller files",
                 std::string(file.status().message()), options_.hostMemoryBytes));
         RETURN_IF_ERROR(file.status());
         left -= alwaysInMemory(*file);
