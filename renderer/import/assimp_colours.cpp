@@ -82,7 +82,7 @@ std::vector<std::string> AssimpColours::notes() const {
             fmt::format("left out vertices' colours of {} of {} meshes, which are below 0", wrong_,
                         ofMeshes_.size()));
     if (areBytes_)
-        notes.emplace_back("vertices' colours are taken for numbers of 0 to 255");
+        notes.emplace_back(kColoursAreBytes);
     return notes;
 }
 

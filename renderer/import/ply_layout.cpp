@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "fabric/status.h"
+#include "renderer/import/byte_colours.h"
 
 namespace eyrie::import {
 namespace {
@@ -107,12 +108,16 @@ VertexLayout::VertexLayout(const PlyElement& element, bool withPlaces) {
     }
 }
 
-std::uint8_t colourByte(double value, PlyType type) {
+std::uint8_t colourByte(double value, PlyType type, bool areBytes) {
     if (!isInteger(type))
-        value *= 255;
+        value *= areBytes ? 1 : 255;
     else if (type == PlyType::UInt16)
         value /= 257;
     return static_cast<std::uint8_t>(value > 0 ? std::lround(std::min(value, 255.0)) : 0);
+}
+
+std::uint8_t opacityByte(double value, PlyType type) {
+    return colourByte(value, type, value > kMostOfFractions);
 }
 
 const PlyProperty* findCorners(const PlyElement& element) {

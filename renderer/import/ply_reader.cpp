@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "fabric/status.h"
+#include "renderer/import/byte_colours.h"
 #include "renderer/import/ply_header.h"
 #include "renderer/import/ply_layout.h"
 #include "renderer/import/ply_textures.h"
@@ -68,6 +69,7 @@ private:
     };
 
     absl::Status readElement(const PlyElement& element);
+    absl::Status lookForBytes(const VertexLayout& layout);
     absl::Status readVertices();
     absl::Status storeVertex(const VertexLayout& layout, const VertexRow& row, std::uint64_t index);
     absl::Status readList(const PlyProperty& property, std::uint64_t index);
@@ -80,6 +82,7 @@ private:
     absl::Status readCount(const PlyProperty& property, std::uint64_t index, std::uint64_t& count);
     absl::Status skip(const PlyProperty& property, std::uint64_t index);
     absl::Status triangulatePolygons();
+    void addNotes();
     absl::Status handOver();
     std::uint64_t roomFor(std::uint64_t count) const {
         return take_ ? std::min(count, 2 * kPiece) : count;
@@ -103,6 +106,8 @@ private:
     std::uint64_t startOffset_ = 0;        // where the one being read starts in the body
     TriangleMesh mesh_;
     std::uint64_t handedOver_ = 0;  // triangles
+    bool coloursAreBytes_ = false;  // those of real numbers
+    std::uint64_t notOpaque_ = 0;   // vertices
     std::vector<Polygon> polygons_;
     std::vector<std::uint32_t> polygonCorners_;
     const TextureLayout layout_;
@@ -218,13 +223,41 @@ absl::Status BodyReader<Values>::storeVertex(const VertexLayout& layout, const V
     if (layout.hasThree(kNormalX))
         mesh_.normals.emplace_back(static_cast<float>(row[3]), static_cast<float>(row[4]),
                                    static_cast<float>(row[5]));
-    if (layout.hasThree(kRed))
-        mesh_.colours.push_back(
-            {colourByte(row[6], layout.types[6]), colourByte(row[7], layout.types[7]),
-             colourByte(row[8], layout.types[8]),
-             layout.isFilled[kAlpha] ? colourByte(row[9], layout.types[9]) : std::uint8_t{255}});
+    if (layout.hasThree(kRed)) {
+        const auto byteOf = [&](std::size_t slot) {
+            return colourByte(row[slot], layout.types[slot], coloursAreBytes_);
+        };
+        const std::uint8_t opacity = layout.isFilled[kAlpha]
+                                         ? opacityByte(row[kAlpha], layout.types[kAlpha])
+                                         : std::uint8_t{255};
+        mesh_.colours.push_back({byteOf(kRed), byteOf(kRed + 1), byteOf(kRed + 2), opacity});
+        notOpaque_ += opacity < 255 ? 1 : 0;
+    }
     if (layout.hasPlaces())
         mesh_.textureCoordinates.push_back(placeFrom(row[kU], row[kV]));
+    return absl::OkStatus();
+}
+
+/// Reads ahead, as the first colours need not tell. What cannot be read is told by readVertices().
+template <typename Values>
+absl::Status BodyReader<Values>::lookForBytes(const VertexLayout& layout) {
+    const Values start = values_;
+    bool canBeRead = true;
+    for (std::uint64_t i = 0; i < element_->count && canBeRead && !coloursAreBytes_; ++i) {
+        if (i % kPiece == 0) {
+            RETURN_IF_ERROR(handOver());
+            RETURN_IF_ERROR(control_.check());
+        }
+        for (std::size_t p = 0; p < layout.slots.size() && canBeRead; ++p) {
+            const PlyProperty& property = element_->properties[p];
+            const std::size_t slot = layout.slots[p];
+            const bool isColour = slot >= kRed && slot < kAlpha && layout.isReal(slot);
+            double value = 0;
+            canBeRead = isColour ? values_.number(property.type, value) : skip(property, i).ok();
+            coloursAreBytes_ = coloursAreBytes_ || value > kMostOfFractions;
+        }
+    }
+    values_ = start;
     return absl::OkStatus();
 }
 
@@ -236,6 +269,8 @@ absl::Status BodyReader<Values>::readVertices() {
     mesh_.normals.reserve(layout.hasThree(kNormalX) ? room : 0);
     mesh_.colours.reserve(layout.hasThree(kRed) ? room : 0);
     mesh_.textureCoordinates.reserve(layout.hasPlaces() ? room : 0);
+    if (layout.hasRealColours())
+        RETURN_IF_ERROR(lookForBytes(layout));
     VertexRow row{};
     for (std::uint64_t i = 0; i < element_->count; ++i) {
         RETURN_IF_ERROR(begin(i));
@@ -404,16 +439,28 @@ absl::Status BodyReader<Values>::triangulatePolygons() {
 }
 
 template <typename Values>
-absl::StatusOr<TriangleMesh> BodyReader<Values>::read(const std::string& path) {
-    for (const PlyElement& element : header_.elements) RETURN_IF_ERROR(readElement(element));
-    if (isTextured_)
-        RETURN_IF_ERROR(textures_.applyTo(mesh_, polygonCorners_, textureNames(header_, path)));
-    RETURN_IF_ERROR(triangulatePolygons());
+void BodyReader<Values>::addNotes() {
+    if (coloursAreBytes_)
+        mesh_.notes.emplace_back(kColoursAreBytes);
+    if (notOpaque_ > 0)
+        mesh_.notes.push_back(fmt::format(
+            "{} vertices are not opaque, which is left out{}: for see-through surfaces export it "
+            "as glTF",
+            notOpaque_, isTextured_ ? " where no texture is see-through" : ""));
     if (!values_.atEnd())
         mesh_.notes.push_back(
             fmt::format("left out {} bytes behind what its header counts: if these are faces, "
                         "export it again",
                         values_.bytesLeft()));
+}
+
+template <typename Values>
+absl::StatusOr<TriangleMesh> BodyReader<Values>::read(const std::string& path) {
+    for (const PlyElement& element : header_.elements) RETURN_IF_ERROR(readElement(element));
+    if (isTextured_)
+        RETURN_IF_ERROR(textures_.applyTo(mesh_, polygonCorners_, textureNames(header_, path)));
+    RETURN_IF_ERROR(triangulatePolygons());
+    addNotes();
     RETURN_IF_ERROR(handOver());
     if (mesh_.triangles.empty() && handedOver_ == 0)
         return absl::InvalidArgumentError(

@@ -17,7 +17,8 @@ namespace eyrie::import {
 /// Reads a PLY mesh: text or binary of either byte order; elements and properties in any order,
 /// others skipped. Taken are
 ///   vertex:     x y z; nx ny nz and red green blue [alpha] (diffuse_red ... too) where complete;
-///               whole-number colours count to 255 (16-bit ones to 65,535), real ones to 1
+///               whole-number colours count to 255 (16-bit ones to 65,535), real ones to 1 or,
+///               where one says so (byte_colours.h), to 255, as notes say
 ///   face:       list vertex_indices or vertex_index, of three corners or more (polygon.h)
 ///   tristrips:  the same, strips parted by -1
 ///   textures:   images named by comments TextureFile, for loadTextures; a face's coordinates in
@@ -25,7 +26,8 @@ namespace eyrie::import {
 ///               texture_v). Vertices along seams are split. An image stands for the colours.
 /// Faces of fewer corners are dropped and counted; those whose texcoord or texnumber fits nothing
 /// have no texture, and are counted in notes, as coordinates are that are no numbers. Colours of
-/// faces, and textures by halves (images or coordinates alone), are left out, which notes say.
+/// faces, and textures by halves (images or coordinates alone), are left out, which notes say, as
+/// they do of vertices that are not opaque, which show so where a texture is see-through alone.
 ///
 /// Errors: NotFound, PermissionDenied, Cancelled, InvalidArgument naming file, element, number,
 /// field, what was found, what was expected and the remedy: truncated file, counts that cannot fit
@@ -39,8 +41,8 @@ absl::StatusOr<TriangleMesh> readPly(const std::string& path, const ImportContro
 using TakePiece = std::function<absl::Status(TriangleMesh& piece)>;
 
 /// The same a few megabytes at a time, and no more in memory; droppedFaces count from the start,
-/// and each has the notes of all. Textures are left out, which those say. Errors: as above; those
-/// of `take`; InvalidArgument where a face has more than three corners.
+/// and the last has the notes of all. Textures are left out, which those say. Errors: as above;
+/// those of `take`; InvalidArgument where a face has more than three corners.
 absl::Status readPlyPieces(const std::string& path, const TakePiece& take,
                            const ImportControl& control = {});
 

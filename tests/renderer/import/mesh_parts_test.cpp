@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -264,6 +265,36 @@ TEST(MeshImport, SaysByPartsTooWhatItLeavesOutOfAPly) {
     ASSERT_TRUE(whole.ok() && parted.ok()) << whole.status() << parted.status();
     EXPECT_THAT(whole->notes, ElementsAre(HasSubstr("1 textures"), HasSubstr("multi_text")));
     EXPECT_EQ(parted->notes, whole->notes);
+}
+
+/// A ball of real colours, of which only the last says that they reach to 255.
+std::string plyOfRealColours() {
+    const TriangleMesh ball = synthesizeMesh(200000, 3);
+    test::PlyBody body(test::Encoding::BigEndian);
+    for (std::size_t i = 0; i < ball.positions.size(); ++i) {
+        const fabric::Vec3& at = ball.positions[i];
+        body.add(at.x).add(at.y).add(at.z).add(at.z > 0 ? 1.0F : 0.0F).add(2.0F);
+        body.add(i + 1 == ball.positions.size() ? 200.0F : 0.0F).add(std::uint8_t{100});
+    }
+    for (const auto& [a, b, c] : ball.triangles) body.add(std::uint8_t{3}).add(a).add(b).add(c);
+    return fmt::format(
+        "{}element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+        "property float red\nproperty float green\nproperty float blue\nproperty uchar alpha\n"
+        "element face {}\nproperty list uchar uint vertex_indices\nend_header\n{}",
+        test::formatLine(test::Encoding::BigEndian), ball.positions.size(), ball.triangles.size(),
+        body.bytes());
+}
+
+TEST(MeshImport, ByPartsTakesTheSameColoursForBytesAndSaysTheSameOfOpacity) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.ply"), plyOfRealColours());
+    const auto whole = importMesh({folder.file("m.ply")}, folder.file("whole.eym"));
+    const auto parted = importByParts(folder.file("m.ply"), folder.file("parts.eym"), 65536);
+    ASSERT_TRUE(whole.ok() && parted.ok()) << whole.status() << parted.status();
+    EXPECT_THAT(whole->notes,
+                ElementsAre(HasSubstr("numbers of 0 to 255"), HasSubstr("are not opaque")));
+    EXPECT_EQ(parted->notes, whole->notes);
+    expectSameBytes(folder.file("parts.eym"), folder.file("whole.eym"));
 }
 
 TEST(MeshImport, ByPartsLeavesTexturesOutAndSaysSo) {

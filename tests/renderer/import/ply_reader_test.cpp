@@ -66,8 +66,10 @@ rc::Gen<TriangleMesh> meshes() {
 RC_GTEST_PROP(PlyReader, ReadsTheSameMeshFromEveryEncoding, ()) {
     const TriangleMesh mesh = *meshes();
     for (const Encoding encoding : kEncodings) {
-        const auto read = parsePly(test::plyOf(mesh, encoding), "sample.ply");
+        auto read = parsePly(test::plyOf(mesh, encoding), "sample.ply");
         RC_ASSERT(read.ok());
+        RC_ASSERT(read->notes.size() == (mesh.colours.empty() ? 0U : 1U));  // not opaque
+        read->notes.clear();
         RC_ASSERT(*read == mesh);
     }
 }
@@ -82,7 +84,7 @@ TEST(PlyReader, GivesBackWhatTheWriterWrote) {
         ASSERT_TRUE(read.ok()) << read.status();
         EXPECT_EQ(*read, mesh);
         mesh.normals.assign(4, {1, 2, 3});
-        mesh.colours.assign(4, {1, 2, 3, 4});
+        mesh.colours.assign(4, {1, 2, 3, 255});
     }
 }
 
@@ -268,6 +270,52 @@ TEST(PlyReader, TakesColoursOfEveryTypeAsBytes) {
     EXPECT_EQ(colourOf("ushort", "0 32896 65535"), (fabric::Rgba{0, 128, 255, 255}));
     EXPECT_EQ(colourOf("float", "-1 nan 1e30"), (fabric::Rgba{0, 0, 255, 255}));
     EXPECT_EQ(colourOf("int", "-5 7 300"), (fabric::Rgba{0, 7, 255, 255}));
+}
+
+/// Two vertices, the second with the colour and what follows it.
+std::string withColours(const std::string& first, const std::string& second, Encoding encoding,
+                        const std::string& more = "") {
+    test::PlyBody body(encoding);
+    for (const std::string& vertex : {first, second}) {
+        body.add(0.0F).add(0.0F).add(0.0F);
+        std::istringstream values(vertex);
+        for (float value = 0; values >> value;) body.add(value);
+        body.endLine();
+    }
+    body.add(std::uint8_t{3}).add(0).add(0).add(1);
+    return test::formatLine(encoding) +
+           "element vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+           "property float red\nproperty float green\nproperty float blue\n" +
+           more + "element face 1\n" + kFaces + "end_header\n" + body.bytes();
+}
+
+TEST(PlyReader, TakesRealColoursForBytesWhereOneIsFarAboveOneAndSaysSo) {
+    for (const Encoding encoding : kEncodings) {
+        const TriangleMesh bytes = parsed(withColours("0 1 2", "0 127.6 300", encoding));
+        EXPECT_EQ(bytes.colours, (std::vector<fabric::Rgba>{{0, 1, 2, 255}, {0, 128, 255, 255}}));
+        EXPECT_THAT(bytes.notes, testing::ElementsAre(testing::HasSubstr("numbers of 0 to 255")));
+        const TriangleMesh fractions = parsed(withColours("0 1 2", "0 0.5 1.3", encoding));
+        EXPECT_EQ(fractions.colours,
+                  (std::vector<fabric::Rgba>{{0, 255, 255, 255}, {0, 128, 255, 255}}));
+        EXPECT_THAT(fractions.notes, testing::IsEmpty());
+    }
+}
+
+TEST(PlyReader, CountsVerticesThatAreNotOpaque) {
+    const std::string alpha = "property float alpha\n";
+    const auto notesOf = [&](const std::string& first, const std::string& second) {
+        return parsed(withColours(first, second, Encoding::Ascii, alpha)).notes;
+    };
+    EXPECT_THAT(notesOf("0 0 0 1", "1 1 1 255"), testing::IsEmpty());
+    EXPECT_THAT(notesOf("0 0 0 0.5", "1 1 1 128"),
+                testing::ElementsAre(testing::HasSubstr("2 vertices are not opaque, which is left "
+                                                        "out: for see-through surfaces")));
+    EXPECT_THAT(parsed(naming(withColours("0 0 0 1 0 0", "1 1 1 0 1 1", Encoding::Ascii,
+                                          alpha + "property float s\nproperty float t\n"),
+                              {"a.png"}))
+                    .notes,
+                testing::ElementsAre(testing::HasSubstr(
+                    "1 vertices are not opaque, which is left out where no texture is see-th")));
 }
 
 TEST(PlyReader, TakesColoursByEachOfTheirNames) {
