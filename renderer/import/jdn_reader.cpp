@@ -158,6 +158,7 @@ private:
     std::uint64_t unknownKeys_ = 0;
     std::string firstUnknown_;
     std::uint64_t unknownMaterials_ = 0;
+    std::uint64_t unseen_ = 0;  // objects without any opacity
     TriangleMesh mesh_;
 };
 
@@ -217,6 +218,7 @@ absl::Status JdnParser::readMaterialId(std::string_view value) {
     const JdnMaterial* material = materials_.find(id);
     objectMaterial_ = material == nullptr ? JdnMaterial() : *material;
     unknownMaterials_ += material == nullptr ? 1 : 0;
+    unseen_ += objectMaterial_.colour.a == 0 ? 1 : 0;
     isInObject_ = true;
     ++objects_;
     vertices_ = 0;
@@ -385,6 +387,11 @@ void JdnParser::addNotes() {
         mesh_.notes.push_back(
             fmt::format("{} objects have a material that the file does not define: they are grey",
                         unknownMaterials_));
+    if (unseen_ > 0)
+        mesh_.notes.push_back(fmt::format(
+            "{} of {} objects are not seen: their materials' Transparency is 1, which leaves them "
+            "no opacity",
+            unseen_, objects_));
 }
 
 absl::StatusOr<TriangleMesh> JdnParser::parse() {

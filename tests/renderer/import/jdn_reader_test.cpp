@@ -172,6 +172,16 @@ TEST(JdnReader, CountsWhatItDoesNotKnow) {
                                                   HasSubstr("1 objects have a material")));
 }
 
+TEST(JdnReader, CountsObjectsThatNobodySees) {
+    const auto mesh = parseJdn(with("Transparency = 0", "Transparency = 1"), "s.jdn");
+    ASSERT_TRUE(mesh.ok());
+    EXPECT_EQ(mesh->colours[0].a, 0);
+    EXPECT_THAT(mesh->notes, testing::Contains(HasSubstr("1 of 2 objects are not seen")));
+    const auto veil = parseJdn(with("Transparency = 0", "Transparency = 0.99"), "s.jdn");
+    ASSERT_TRUE(veil.ok());
+    EXPECT_THAT(veil->notes, testing::Not(testing::Contains(HasSubstr("not seen"))));
+}
+
 TEST(JdnReader, KnowsItsKindByTheFirstLine) {
     EXPECT_TRUE(looksLikeJdn(sample()));
     EXPECT_TRUE(looksLikeJdn("  Number  of Materials=3"));
