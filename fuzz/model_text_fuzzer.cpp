@@ -15,6 +15,7 @@
 #include "renderer/import/off_text.h"
 #include "renderer/import/stl_colours.h"
 #include "renderer/import/stl_length.h"
+#include "renderer/import/stl_text.h"
 #include "renderer/import/three_mf.h"
 #include "renderer/import/uri_name.h"
 #include "renderer/import/x3d_text.h"
@@ -41,6 +42,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (mtlForAssimp(mtlForAssimp(text)) != mtlForAssimp(text))
         std::abort();
     (void)countRecoloured3mfObjects(text);
+    if (const auto solid = stlTextForAssimp(text); solid && stlTextForAssimp(*solid))
+        std::abort();
     const auto stl = stlForAssimp(bytes);
     if (stl && (stl->size() != size || wrongLengthOfStl(std::as_bytes(std::span(*stl)))))
         std::abort();

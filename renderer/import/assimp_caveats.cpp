@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "renderer/import/gltf_extensions.h"
 #include "renderer/import/obj_text.h"
 #include "renderer/import/off_text.h"
+#include "renderer/import/stl_text.h"
 #include "renderer/import/xml_tag.h"
 
 namespace eyrie::import {
@@ -101,11 +103,12 @@ std::vector<std::string> packedColladaCaveats() {
 }
 
 /// Assimp takes what there is.
-std::vector<std::string> stlCaveats(std::string_view text) {
-    const bool isText = text.starts_with("solid") && text.substr(0, 84).find('\0') == text.npos;
+std::vector<std::string> stlCaveats(std::string_view source) {
+    const std::optional<std::string> mended = stlTextForAssimp(source);
+    const std::string_view text = mended ? std::string_view(*mended) : source;
     const std::size_t end = text.rfind("endsolid");
     const std::size_t lastSolid = text.rfind("\nsolid");  // but the first
-    if (!isText || (end != text.npos && (lastSolid == text.npos || lastSolid < end)))
+    if (!isStlText(source) || (end != text.npos && (lastSolid == text.npos || lastSolid < end)))
         return {};
     return {
         "it ends without 'endsolid', as files do that were cut off: copy or export it again if "

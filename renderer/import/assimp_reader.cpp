@@ -36,6 +36,7 @@
 #include "renderer/import/obj_materials.h"
 #include "renderer/import/stl_colours.h"
 #include "renderer/import/stl_length.h"
+#include "renderer/import/stl_text.h"
 #include "renderer/import/three_mf.h"
 #include "renderer/mesh/mapped_file.h"
 
@@ -65,7 +66,8 @@ std::string_view textOf(const mesh::MappedFile& file) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// What Assimp reads instead of a file that it would take for another; nothing for others.
+/// What Assimp reads instead of a file that it would take for another or refuse; nothing for
+/// others.
 absl::StatusOr<std::optional<std::string>> instead(const mesh::MappedFile& file,
                                                    const std::string& path,
                                                    const AssimpFormat& format) {
@@ -73,8 +75,10 @@ absl::StatusOr<std::optional<std::string>> instead(const mesh::MappedFile& file,
         return withFirstTextures(file.bytes());
     if (format.isGltf())
         return unpackGltf(file.bytes(), path);
-    if (format.extension == ".stl")
-        return stlForAssimp(file.bytes());
+    if (format.extension == ".stl") {
+        std::optional<std::string> text = stlTextForAssimp(textOf(file));
+        return text ? std::move(text) : stlForAssimp(file.bytes());
+    }
     return std::nullopt;
 }
 

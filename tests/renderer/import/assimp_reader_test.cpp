@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/assimp_reader.h"
 
+#include <cctype>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 
 #include "renderer/import/gltf_chunks.h"
 #include "renderer/import/obj_text.h"
+#include "renderer/import/stl_text.h"
 #include "tests/renderer/import/assimp_files.h"
 #include "tests/renderer/import/mesh_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
@@ -198,6 +200,35 @@ TEST(AssimpReader, SaysWhatFilesLackThatWereCutOffOrAreReadInPart) {
     EXPECT_THAT(notesOf("m.obj", face), IsEmpty());
     EXPECT_THAT(notesOf("m.obj", face + "cstype bezier\nsurf 0 1 0 1 1 2 3\nend\n"),
                 ElementsAre(HasSubstr("left out 1 free-form surfaces")));
+}
+
+TEST(AssimpReader, ReadsTextStlInCapitalsAndBehindBlankLines) {
+    const test::TemporaryFolder folder;
+    const std::string facet =
+        "facet normal 0 0 1\nouter loop\nvertex 5E-1 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+        "endloop\nendfacet\n";
+    std::string capitals = facet;
+    for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    for (const std::string& text :
+         {"SOLID A\n" + capitals + "ENDSOLID A\n", "\r\n \nsolid A\r\n" + facet + "endsolid A\n",
+          "\xef\xbb\xbf\nSolid A\n" + facet + "EndSolid A\n", "solid\n" + capitals + "endsolid\n",
+          "solid A\n" + facet + "endsolid A\n"}) {
+        test::writeFile(folder.file("m.stl"), text);
+        const auto mesh = readWithAssimp(folder.file("m.stl"));
+        ASSERT_TRUE(mesh.ok()) << text << mesh.status();
+        ASSERT_EQ(mesh->triangles.size(), 1U) << text;
+        EXPECT_EQ(mesh->positions[mesh->triangles[0][0]], fabric::Vec3(0.5, 0, 0)) << text;
+        EXPECT_THAT(mesh->notes, IsEmpty()) << text;
+    }
+    EXPECT_THAT(notesOfFile(folder.file("m.stl"), "\nSOLID A\n" + capitals),
+                ElementsAre(HasSubstr("without 'endsolid'")));
+}
+
+TEST(StlTextForAssimp, LeavesAsTheyAreFilesThatAreReadRightly) {
+    EXPECT_FALSE(stlTextForAssimp("solid Of Names\nfacet normal 1E3 0 0\nendsolid Of Names"));
+    EXPECT_FALSE(stlTextForAssimp("Solid" + std::string(79, '\0'))) << "binary";
+    EXPECT_FALSE(stlTextForAssimp(""));
+    EXPECT_FALSE(stlTextForAssimp(" \nsoli"));
 }
 
 /// A face that is put in once, turned by so many degrees, in a file that may be cut off.
