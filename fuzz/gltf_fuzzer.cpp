@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "access/printable.h"
 #include "renderer/import/gltf_extensions.h"
@@ -20,10 +21,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             std::abort();
     }
     static_cast<void>(gltfCaveats(bytes));
-    const auto glb = unpackGltf(bytes, "fuzzed.gltf");
+    std::vector<std::string> notes;
+    const auto glb = unpackGltf(bytes, "fuzzed.gltf", notes);
     if (!glb.ok() || !*glb)
         return 0;
-    const auto again = unpackGltf(std::as_bytes(std::span(**glb)), "fuzzed.gltf");
+    const auto again = unpackGltf(std::as_bytes(std::span(**glb)), "fuzzed.gltf", notes);
     if (!again.ok() || (*again && *again != *glb))
         std::abort();
     return 0;

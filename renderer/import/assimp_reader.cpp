@@ -70,11 +70,12 @@ std::string_view textOf(const mesh::MappedFile& file) {
 /// others.
 absl::StatusOr<std::optional<std::string>> instead(const mesh::MappedFile& file,
                                                    const std::string& path,
-                                                   const AssimpFormat& format) {
+                                                   const AssimpFormat& format,
+                                                   std::vector<std::string>& notes) {
     if (format.extension.starts_with(".ac"))
         return withFirstTextures(file.bytes());
     if (format.isGltf())
-        return unpackGltf(file.bytes(), path);
+        return unpackGltf(file.bytes(), path, notes);
     if (format.extension == ".stl") {
         std::optional<std::string> text = stlTextForAssimp(textOf(file));
         return text ? std::move(text) : stlForAssimp(file.bytes());
@@ -86,7 +87,7 @@ absl::StatusOr<std::optional<std::string>> instead(const mesh::MappedFile& file,
 absl::StatusOr<const aiScene*> parse(Assimp::Importer& importer, const std::string& path,
                                      const AssimpFormat& format, std::vector<std::string>& notes) {
     ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
-    ASSIGN_OR_RETURN(const std::optional<std::string> text, instead(file, path, format));
+    ASSIGN_OR_RETURN(const std::optional<std::string> text, instead(file, path, format, notes));
     if (text)
         return importer.ReadFileFromMemory(text->data(), text->size(), 0,
                                            format.isGltf()              ? "glb"

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -109,11 +110,36 @@ bool mendLights(Json& root) {
     return isMended;
 }
 
+bool mendPrimitives(Json& root, std::vector<std::string>& notes) {
+    Json* meshes = memberAt(root, {"meshes"});
+    if (meshes == nullptr || !meshes->is_array())
+        return false;
+    std::size_t all = 0, lost = 0;
+    for (Json& mesh : *meshes) {
+        Json* primitives = memberAt(mesh, {"primitives"});
+        if (primitives == nullptr || !primitives->is_array())
+            continue;
+        Json placed = Json::array();
+        for (Json& primitive : *primitives)
+            if (memberAt(primitive, {"attributes", "POSITION"}) != nullptr)
+                placed.push_back(primitive);
+        all += primitives->size();
+        lost += primitives->size() - placed.size();
+        *primitives = std::move(placed);
+    }
+    if (lost > 0)
+        notes.push_back(fmt::format(
+            "left out {} of {} parts of its meshes (primitives), which have no positions", lost,
+            all));
+    return lost > 0;
+}
+
 }  // namespace
 
-bool mendGltf(Json& root) {
+bool mendGltf(Json& root, std::vector<std::string>& notes) {
     const bool hasMendedLights = mendLights(root);
-    return mendTextures(root) || hasMendedLights;
+    const bool hasMendedPrimitives = mendPrimitives(root, notes);
+    return mendTextures(root) || hasMendedLights || hasMendedPrimitives;
 }
 
 }  // namespace eyrie::import

@@ -186,7 +186,8 @@ class Unpacking {
 public:
     explicit Unpacking(const std::string& path) : path_(path) {}
 
-    absl::StatusOr<std::optional<std::string>> run(const GltfChunks& chunks);
+    absl::StatusOr<std::optional<std::string>> run(const GltfChunks& chunks,
+                                                   std::vector<std::string>& notes);
 
 private:
     absl::Status readBuffer(const Json& buffer, std::size_t index);
@@ -369,14 +370,15 @@ bool Unpacking::isNeeded() const {
     return false;
 }
 
-absl::StatusOr<std::optional<std::string>> Unpacking::run(const GltfChunks& chunks) {
+absl::StatusOr<std::optional<std::string>> Unpacking::run(const GltfChunks& chunks,
+                                                          std::vector<std::string>& notes) {
     root_ = parsedGltf(chunks.json);
     if (!root_.is_object())
         return std::nullopt;
     for (const char* list : {"buffers", "bufferViews", "accessors", "meshes"})
         if (!root_.contains(list) || !root_[list].is_array())
             root_[list] = Json::array();
-    const bool isMended = mendGltf(root_);
+    const bool isMended = mendGltf(root_, notes);
     lookForGeometry();
     if (!isMended && !isNeeded())
         return std::nullopt;
@@ -402,9 +404,10 @@ absl::StatusOr<std::optional<std::string>> Unpacking::run(const GltfChunks& chun
 }  // namespace
 
 absl::StatusOr<std::optional<std::string>> unpackGltf(std::span<const std::byte> bytes,
-                                                      const std::string& path) {
+                                                      const std::string& path,
+                                                      std::vector<std::string>& notes) {
     try {
-        return Unpacking(path).run(gltfChunksOf(bytes));
+        return Unpacking(path).run(gltfChunksOf(bytes), notes);
     } catch (const Json::exception& error) {
         return wrong("its JSON", fmt::format("is not glTF's ({})", error.what()));
     }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <absl/status/statusor.h>
 
@@ -18,9 +19,11 @@ namespace eyrie::import {
 /// their names. Nothing for a file that Assimp takes as it is, or for what is no JSON.
 ///
 /// Buffers that are files are looked for where `path` is. Morph targets and animations stay as they
-/// are, unpacked. Errors: InvalidArgument (no sound glTF, with what is wrong; a buffer that is not
-/// there; more than 64 times the bytes that it is packed in, part by part and all in all).
+/// are, unpacked. What is left out `notes` say. Errors: InvalidArgument (no sound glTF, with what
+/// is wrong; a buffer that is not there; more than 64 times the bytes that it is packed in, part by
+/// part and all in all).
 absl::StatusOr<std::optional<std::string>> unpackGltf(std::span<const std::byte> bytes,
-                                                      const std::string& path);
+                                                      const std::string& path,
+                                                      std::vector<std::string>& notes);
 
 }  // namespace eyrie::import

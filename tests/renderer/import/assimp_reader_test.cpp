@@ -231,6 +231,25 @@ TEST(StlTextForAssimp, LeavesAsTheyAreFilesThatAreReadRightly) {
     EXPECT_FALSE(stlTextForAssimp(" \nsoli"));
 }
 
+TEST(AssimpReader, PassesPrimitivesOfGltfWithoutPositionsOver) {
+    const test::TemporaryFolder folder;
+    const auto gltfWith = [](const std::string& primitives) {
+        std::string gltf = test::kGltf;
+        return gltf.replace(gltf.find(R"({"attributes")"), 0, primitives);
+    };
+    test::writeFile(folder.file("m.gltf"),
+                    gltfWith(R"({"attributes":{"NORMAL":0}},{"attributes":{}},{},)"));
+    const auto mesh = readWithAssimp(folder.file("m.gltf"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_EQ(mesh->triangles.size(), 2U);
+    EXPECT_THAT(mesh->notes, testing::Contains(HasSubstr("left out 3 of 4 parts of its meshes")));
+    std::string none = gltfWith(R"({"attributes":{}}]},{"primitives":[)");
+    test::writeFile(folder.file("m.gltf"), none.replace(none.rfind("\"mesh\":0"), 8, "\"mesh\":1"));
+    const auto other = readWithAssimp(folder.file("m.gltf"));
+    ASSERT_TRUE(other.ok()) << other.status();
+    EXPECT_EQ(other->triangles.size(), 1U) << "of the second node's mesh";
+}
+
 /// A face that is put in once, turned by so many degrees, in a file that may be cut off.
 std::string dxfOfABlock(int degrees, std::string_view end) {
     return fmt::format(
