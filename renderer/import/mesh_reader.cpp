@@ -112,16 +112,18 @@ absl::StatusOr<std::vector<std::string>> namesIn(const std::string& path) {
     return mentionedFiles(text, kind->mark, kind->ends);
 }
 
-/// Adds the files that the one at `path` names, as far as they exist, and what those name.
-absl::Status addCompanions(const std::string& path, std::vector<std::string>& found) {
+/// Adds the files that the one at `path` names, as far as they exist, and what those name. It is
+/// the source at `source` or one of its companions.
+absl::Status addCompanions(const std::string& path, const std::string& source,
+                           std::vector<std::string>& found) {
     ASSIGN_OR_RETURN(const std::vector<std::string> names, namesIn(path));
     for (const std::string& name : names) {
-        const std::string companion = findTexture(name, path);
+        const std::string companion = findTexture(name, source, path);
         if (companion.empty() || companion == path || std::ranges::count(found, companion) > 0)
             continue;
         found.push_back(companion);
         if (endsWith(path, ".obj"))
-            RETURN_IF_ERROR(addCompanions(companion, found));
+            RETURN_IF_ERROR(addCompanions(companion, source, found));
     }
     return absl::OkStatus();
 }
@@ -188,7 +190,7 @@ absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportContr
 
 absl::StatusOr<std::vector<std::string>> companionsOf(const std::string& path) {
     std::vector<std::string> found;
-    RETURN_IF_ERROR(addCompanions(path, found));
+    RETURN_IF_ERROR(addCompanions(path, path, found));
     return found;
 }
 

@@ -19,9 +19,21 @@
 namespace eyrie::import {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// What Assimp reads where a material file is missing.
 std::string insteadOfMissing(const std::string& path) {
-    return std::filesystem::path(path).filename().replace_extension(".mtl").string();
+    return fs::path(path).filename().replace_extension(".mtl").string();
+}
+
+/// The name by which findTexture() finds beside the OBJ what it finds beside its material file.
+std::string nameFromObj(const std::string& name, const std::string& path,
+                        const std::string& library) {
+    if (name.empty() || !findTexture(name, path).empty())
+        return name;
+    const std::string found = findTexture(name, path, library);
+    const fs::path fromObj = fs::path(found).lexically_relative(fs::path(path).parent_path());
+    return found.empty() ? name : fromObj.empty() ? found : fromObj.string();
 }
 
 std::map<std::string, ObjMaterial> materialsOf(std::string_view obj, const std::string& path) {
@@ -32,8 +44,10 @@ std::map<std::string, ObjMaterial> materialsOf(std::string_view obj, const std::
         if (found.empty() || !file.ok())
             continue;
         const auto bytes = file->bytes();
-        materials.merge(
-            objMaterialsOf({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
+        auto more = objMaterialsOf({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        for (auto& [ignored, material] : more)
+            material.texture.name = nameFromObj(material.texture.name, path, found);
+        materials.merge(more);
     }
     return materials;
 }

@@ -428,6 +428,12 @@ std::string findTexture(const std::string& name, const std::string& path) {
     return found.empty() && plain != name ? findAsNamed(plain, path) : found;
 }
 
+std::string findTexture(const std::string& name, const std::string& path,
+                        const std::string& companion) {
+    std::string found = findTexture(name, path);
+    return found.empty() ? findTexture(name, companion) : found;
+}
+
 absl::Status loadTextures(TriangleMesh& mesh, const std::string& path, const ImportControl& control,
                           std::uint64_t memoryBytes) {
     if (mesh.materials.empty())

@@ -18,7 +18,8 @@ inline constexpr double kMostImageSides = 16384;
 /// TriangleMesh::images, in a process of its own (reading_process.h): PNG, JPEG, TGA, BMP, GIF, PSD
 /// and what else stb_image knows, and SGI's, up to mesh::kMaxImageSide a side. Names may have
 /// backslashes; files that are not where they are named are looked for beside the source by their
-/// last part, then without regard to case, then as URIs have it, with %20 for a space.
+/// last part, then without regard to case, then as URIs have it, with %20 for a space, then so
+/// beside OBJ's material files that name them.
 ///
 /// An image that is missing, damaged or too large is counted in the notes, the first with its name
 /// and the reason; its materials have their colour alone. Where a material of kReplacesColour has
@@ -34,5 +35,10 @@ absl::Status loadTextures(TriangleMesh& mesh, const std::string& path, const Imp
 
 /// The file that `name` in a source at `path` means; empty where there is none.
 std::string findTexture(const std::string& name, const std::string& path);
+
+/// The same of `name` in a file at `companion` that the source is read with, as OBJ's materials
+/// are: beside that where the source has none.
+std::string findTexture(const std::string& name, const std::string& path,
+                        const std::string& companion);
 
 }  // namespace eyrie::import

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Material files of OBJ.
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -156,6 +157,34 @@ TEST(ObjMaterials, ShowsTexturesOfAnObjInFullWhereNoColourIsGiven) {
         const auto shown = static_cast<std::uint8_t>(level);
         EXPECT_EQ(mesh->colours[0], (fabric::Rgba{shown, shown, shown, 255}));
     }
+}
+
+TEST(ObjMaterials, FindsTexturesBesideTheObjAndThenBesideTheMaterialFile) {
+    const test::TemporaryFolder folder;
+    std::string obj = test::kTexturedObj;
+    test::writeFile(folder.file("m.obj"), obj.replace(obj.find("m.mtl"), 5, "looks\\m.mtl"));
+    std::filesystem::create_directories(folder.file("looks/maps"));
+    test::writeFile(folder.file("looks/m.mtl"),
+                    "newmtl tiles\nmap_Kd maps\\A.tga\nnewmtl lost\nmap_Kd lost.tga\n"
+                    "newmtl pane\nnewmtl broken\n");
+    const std::vector<std::string> paths = {folder.file("m.obj")};
+    const auto readWith = [&](const char* image, std::uint8_t red) {
+        test::writeFile(folder.file(image), test::tgaOf(1, 1, {{red, 0, 0, 255}}));
+        const auto mesh = readMesh(paths[0]);
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        EXPECT_THAT(mesh->notes, testing::ElementsAre(HasSubstr("1 of 2 textures cannot be read, "
+                                                                "and their materials have their "
+                                                                "colour alone: 'lost.tga'")));
+        EXPECT_EQ(mesh->images.size(), 1U);
+        return static_cast<int>(mesh->images.at(0).shape.meanColour & 0xFF);
+    };
+    const std::uint64_t without = *meshSourceHash(paths);
+    EXPECT_EQ(readWith("looks/a.tga", 5), 5) << "by its last part, in whatever case";
+    EXPECT_EQ(readWith("looks/maps/A.tga", 10), 10);
+    const std::uint64_t beside = *meshSourceHash(paths);
+    EXPECT_NE(beside, without);
+    EXPECT_EQ(readWith("A.tga", 20), 20);
+    EXPECT_NE(*meshSourceHash(paths), beside) << "of what is read now";
 }
 
 TEST(ObjMaterials, CountsMaterialsThatNoFileDefines) {
