@@ -2,6 +2,7 @@
 #include "renderer/import/obj_materials.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <iterator>
 #include <map>
@@ -91,20 +92,30 @@ std::vector<std::string> applyObjMaterials(const std::string& path, std::string_
     std::ranges::copy_if(libraries, std::back_inserter(missing),
                          [&](const std::string& name) { return findTexture(name, path).empty(); });
     const std::map<std::string, ObjMaterial> materials = materialsOf(obj, path);
+    std::size_t otherColours = 0;
     for (aiMaterial* material : std::span(scene.mMaterials, scene.mNumMaterials)) {
         const std::string name = material->GetName().C_Str();
-        if (const auto stated = materials.find(name); stated != materials.end())
+        if (const auto stated = materials.find(name); stated != materials.end()) {
             apply(stated->second, *material);
-        else if (name != AI_DEFAULT_MATERIAL_NAME)
+            otherColours += stated->second.hasOtherColour ? 1 : 0;
+        } else if (name != AI_DEFAULT_MATERIAL_NAME) {
             unknown.push_back(name);
+        }
     }
+    std::vector<std::string> notes;
+    if (otherColours > 0)
+        notes.push_back(
+            fmt::format("left out the colours of {} materials, which are given as 'xyz' or "
+                        "'spectral': give them as red, green and blue",
+                        otherColours));
     const std::string instead = insteadOfMissing(path);
-    if (!missing.empty() && findTexture(instead, path).empty())
-        return {
+    if (!missing.empty() && findTexture(instead, path).empty()) {
+        notes.push_back(
             fmt::format("{} of {} material files are missing, and what they define is plain: "
                         "'{}'",
-                        missing.size(), libraries.size(), missing.front())};
-    std::vector<std::string> notes;
+                        missing.size(), libraries.size(), missing.front()));
+        return notes;
+    }
     if (!missing.empty())
         notes.push_back(
             fmt::format("{} of {} material files are missing, and '{}' is read in their place: "

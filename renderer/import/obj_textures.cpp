@@ -83,6 +83,11 @@ bool endsLibrary(std::string_view word) {
            isInAnyCase(word.substr(word.size() - kEnding.size()), kEnding);
 }
 
+/// Of a colour that is given otherwise than by red, green and blue.
+bool isOfOtherKind(std::string_view colour) {
+    return takeWordIf(colour, "xyz") || takeWordIf(colour, "spectral");
+}
+
 struct Option {
     std::string_view name;
     int words;
@@ -172,7 +177,7 @@ std::string_view fromFirstMaterial(std::string_view mtl) {
 }
 
 std::string mtlForAssimp(std::string_view mtl) {
-    constexpr std::array<std::string_view, 5> kColours = {"Kd", "kd", "Ka", "Ks", "Ke"};
+    constexpr std::array<std::string_view, 6> kColours = {"Kd", "kd", "Ka", "Ks", "Ke", "Tf"};
     constexpr std::string_view kHalo = "-halo";
     const std::string_view whole = fromFirstMaterial(mtl);
     MendedText mended(whole);
@@ -181,8 +186,13 @@ std::string mtlForAssimp(std::string_view mtl) {
         rest = trimmed(rest.substr(0, rest.find('#')));
         const std::string_view keyword = takeWord(rest);
         const auto at = static_cast<std::size_t>(rest.data() - whole.data());
-        if (std::ranges::count(kColours, keyword) > 0 && isNumber(rest))
+        const bool isColour = std::ranges::count(kColours, keyword) > 0;
+        if (isColour && isNumber(rest))
             mended.replace(at + rest.size(), 0, fmt::format(" {} {}", rest, rest));
+        if (isColour && isOfOtherKind(rest)) {
+            const auto begin = static_cast<std::size_t>(keyword.data() - whole.data());
+            mended.replace(begin, at + rest.size() - begin, "");
+        }
         while (keyword == "d" && takeWordIf(rest, kHalo)) {
         }
         if (const auto end = static_cast<std::size_t>(rest.data() - whole.data()); end > at)
@@ -201,7 +211,7 @@ std::map<std::string, ObjMaterial> objMaterialsOf(std::string_view mtl) {
         if (keyword == "newmtl")
             material = &materials[std::string(line)];
         else if (keyword == "Kd" || keyword == "kd")
-            material->hasColour = true;
+            (isOfOtherKind(line) ? material->hasOtherColour : material->hasColour) = true;
         else if (isMapKd(keyword))
             material->texture = parseMapKd(line);
     }

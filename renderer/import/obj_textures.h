@@ -40,13 +40,15 @@ std::vector<std::string> librariesOfObj(std::string_view obj);
 std::string_view fromFirstMaterial(std::string_view mtl);
 
 /// What Assimp is to read of a material file: that, colours of one number as the three that they
-/// stand for, and opacities without `-halo`, which it takes for a number.
+/// stand for, no colours of other kinds (CIE's x y z, spectra), for which it refuses the file, and
+/// opacities without `-halo`, which it takes for a number.
 std::string mtlForAssimp(std::string_view mtl);
 
 /// What an .mtl file says of a material.
 struct ObjMaterial {
-    bool hasColour = false;  ///< Kd
-    ObjTexture texture;      ///< the last; without a name where it has none
+    bool hasColour = false;       ///< Kd, of numbers
+    bool hasOtherColour = false;  ///< Kd in another way, which is not read
+    ObjTexture texture;           ///< the last; without a name where it has none
 };
 
 /// The materials of an .mtl file by their names.

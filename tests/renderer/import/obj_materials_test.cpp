@@ -187,6 +187,21 @@ TEST(ObjMaterials, FindsTexturesBesideTheObjAndThenBesideTheMaterialFile) {
     EXPECT_NE(*meshSourceHash(paths), beside) << "of what is read now";
 }
 
+TEST(ObjMaterials, LeavesColoursOutThatAreGivenOtherwiseThanByRedGreenAndBlue) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    test::writeFile(folder.file("a.tga"), test::tgaOf(1, 1, {{9, 8, 7, 255}}));
+    test::writeFile(folder.file("m.mtl"),
+                    "newmtl tiles\nKd  xyz 0.1 0.2 0.3 # CIE\n  Ka spectral a.rfl\nKs xyz .5\n"
+                    "Tf spectral a.rfl 2\nmap_Kd a.tga\nnewmtl lost\nKd spectral a.rfl\n"
+                    "newmtl pane\nKd 0 0 1\nKa xyz 1\nnewmtl broken\n");
+    const auto mesh = readMesh(folder.file("m.obj"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_THAT(mesh->notes, testing::ElementsAre(HasSubstr("the colours of 2 materials")));
+    EXPECT_EQ(mesh->colours[mesh->triangles[0][0]], (fabric::Rgba{255, 255, 255, 255}));
+    EXPECT_EQ(mesh->colours[mesh->triangles[2][0]], (fabric::Rgba{0, 0, 255, 255}));
+}
+
 TEST(ObjMaterials, CountsMaterialsThatNoFileDefines) {
     const test::TemporaryFolder folder;
     const auto notesOf = [&](const std::string& mtl) {
