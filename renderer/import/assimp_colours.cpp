@@ -39,20 +39,22 @@ AssimpColours::AssimpColours(const aiScene& scene, const AssimpFormat& format) :
 
 /// Assimp gives AMF's vertices the colour 0, 0, 0, 0 where the file has none, takes Blender's bytes
 /// for signed ones, and begins to read colours of OFF with the z of a normal before them. glTF's
-/// mean what they say, but for an alpha of 0 where they have none.
+/// mean what they say. Where the file has no alpha, it is 0 of some formats', and another of DXF's.
 AssimpColours::OfMesh AssimpColours::look(const aiMesh& mesh) {
     if (mesh.mColors[0] == nullptr)
         return {};
     const std::span colours(mesh.mColors[0], mesh.mNumVertices);
-    const auto hasNoAlpha = [](const aiColor4D& colour) { return colour.a == 0; };
+    const bool haveNoAlpha =
+        format_.extension == ".dxf" ||
+        std::ranges::all_of(colours, [](const aiColor4D& colour) { return colour.a == 0; });
     if (format_.hasLinearColours)
-        return {mesh.mColors[0], std::ranges::all_of(colours, hasNoAlpha), false};
+        return {mesh.mColors[0], haveNoAlpha, false};
     const bool isShifted = format_.extension == ".off" && mesh.mNormals != nullptr;
     const bool isWrong = !isShifted && std::ranges::any_of(colours, isBelowZero);
     wrong_ += isWrong ? 1 : 0;
     if (isWrong || std::ranges::all_of(colours, isNothing))
         return {};
-    return {mesh.mColors[0], isShifted, isShifted};
+    return {mesh.mColors[0], isShifted || haveNoAlpha, isShifted};
 }
 
 bool AssimpColours::areAny() const {

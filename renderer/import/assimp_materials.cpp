@@ -241,6 +241,11 @@ bool AssimpMaterials::isOpaque(const aiMesh& mesh) const {
     return entry == nullptr || entry->isOpaque;
 }
 
+bool AssimpMaterials::mayShowWhatIsBehind(const aiMesh& mesh) const {
+    const mesh::Material& material = materials_[numberOf(mesh)];
+    return material.isSeeThrough() || (material.flags & kAlphaByImage) != 0;
+}
+
 float AssimpMaterials::cutoffWithoutImage(const aiMesh& mesh) const {
     const Entry* entry = find(mesh);
     return entry == nullptr || materials_[numberOf(mesh)].hasImage() ? 0 : entry->cutoff;

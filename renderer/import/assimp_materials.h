@@ -29,6 +29,8 @@ public:
     aiColor4D colourOf(const aiMesh& mesh) const;
     /// Whether alpha is of no account, whatever it is.
     bool isOpaque(const aiMesh& mesh) const;
+    /// Whether what is behind a surface may show by what its alpha lacks.
+    bool mayShowWhatIsBehind(const aiMesh& mesh) const;
     /// Of surfaces without an image, those whose alpha is less are not there at all.
     float cutoffWithoutImage(const aiMesh& mesh) const;
     glm::vec2 textureCoordinates(const aiMesh& mesh, unsigned int vertex) const;

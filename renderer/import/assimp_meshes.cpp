@@ -101,6 +101,7 @@ private:
     bool hasColours_ = false;
     double farthest_ = 0;  // metres of a vertex from its mesh's own origin
     std::size_t cutAway_ = 0;
+    std::size_t notOpaque_ = 0;  // vertices that are shown as if they were
     TriangleMesh result_;
     std::vector<std::uint32_t> corners_;  // of the face being added
 };
@@ -139,8 +140,10 @@ void SceneMeshes::addColours(unsigned int number) {
     aiColor4D diffuse = colours_.areAnyOf(number) ? aiColor4D(1, 1, 1, 1) : kPlain;
     if (material != nullptr)
         diffuse = materials_.colourOf(mesh);
+    const bool isOpaque = !format_.isGltf() && !materials_.mayShowWhatIsBehind(mesh);
     for (unsigned int i = 0; i < mesh.mNumVertices; ++i) {
         const aiColor4D own = colours_.of(number, i);
+        notOpaque_ += isOpaque && own.a < 1 ? 1 : 0;
         const auto shown = [this](float value) { return byteOf(value, format_.hasLinearColours); };
         result_.colours.push_back(
             {shown(diffuse.r * own.r), shown(diffuse.g * own.g), shown(diffuse.b * own.b),
@@ -232,6 +235,11 @@ void SceneMeshes::noteWhatIsLeftOut() {
             "left out {} triangles whose opacity is below the cutoff of their material, "
             "which nobody would see",
             cutAway_));
+    if (notOpaque_ > 0)
+        result_.notes.push_back(
+            fmt::format("{} vertices are not opaque, which is left out, as their materials are: "
+                        "for see-through surfaces export it as glTF",
+                        notOpaque_));
     const std::span meshes(scene_.mMeshes, scene_.mNumMeshes);
     const auto bent =
         std::ranges::count_if(meshes, [](const aiMesh* one) { return one->HasBones(); });

@@ -53,7 +53,9 @@ TEST(OffCaveats, CountOpacitiesBehindNormals) {
         EXPECT_THAT(read(offOf("CN", std::string("0 0 1 1 .5 0 ") + opaque)).notes, IsEmpty());
     EXPECT_THAT(read(offOf("CN", "0 0 1 1 .5 0 .25")).notes,
                 ElementsAre(HasSubstr("left out the opacity of 3 vertices")));
-    EXPECT_THAT(read(offOf("C", "1 .5 0 .25")).notes, IsEmpty());
+    EXPECT_THAT(read(offOf("C", "1 .5 0 .25")).notes,
+                ElementsAre(HasSubstr("3 vertices are not opaque, which is left out")));
+    EXPECT_THAT(read(offOf("C", "1 .5 0 1")).notes, IsEmpty());
 }
 
 TEST(OffForAssimp, LeavesAsTheyAreFilesThatAreReadRightly) {
