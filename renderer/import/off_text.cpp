@@ -43,13 +43,40 @@ std::size_t countWords(std::string_view line) {
     return count;
 }
 
+/// What the header's first word says of vertices.
+struct OffKind {
+    bool hasPlaces = false;  ///< on a texture
+    bool hasColours = false;
+    bool hasNormals = false;
+    bool isOther = false;  ///< has something else, too, or what writers disagree on
+
+    explicit OffKind(std::string_view word) {
+        constexpr std::string_view kEnd = "OFF";
+        isOther = !word.ends_with(kEnd);
+        while (!isOther && word != kEnd) {
+            const bool isOfPlaces = word.starts_with("ST");
+            // MeshLab's "NC" has colours before normals, though it reads them behind those.
+            isOther = !isOfPlaces && word[0] != 'C' && (word[0] != 'N' || word[1] == 'C');
+            hasPlaces = hasPlaces || isOfPlaces;
+            hasColours = hasColours || word[0] == 'C';
+            hasNormals = hasNormals || word[0] == 'N';
+            word.remove_prefix(isOfPlaces ? 2 : 1);
+        }
+    }
+
+    /// In the order that the format wants, and Assimp needs.
+    std::string word() const {
+        return fmt::format("{}{}{}OFF", hasPlaces ? "ST" : "", hasColours ? "C" : "",
+                           hasNormals ? "N" : "");
+    }
+};
+
 /// The lines behind a header that are not blank, and have more than a comment.
 class OffLines {
 public:
     explicit OffLines(std::string_view off) : rest_(off) {
         std::string_view first = takeHeaderWord();
-        isColoured_ = first == "COFF";
-        hasNormalsBeforeColours_ = first == "CNOFF";
+        word_ = first;
         if (first.ends_with("OFF"))
             first = takeHeaderWord();
         isRead_ = count(first, vertices_) && count(takeHeaderWord(), faces_);
@@ -57,9 +84,8 @@ public:
     }
 
     bool isRead() const { return isRead_; }
-    /// By vertices' colours, and nothing else.
-    bool isColoured() const { return isColoured_; }
-    bool hasNormalsBeforeColours() const { return hasNormalsBeforeColours_; }
+    /// The first of the header.
+    std::string_view word() const { return word_; }
     std::uint64_t vertices() const { return vertices_; }
     std::uint64_t faces() const { return faces_; }
 
@@ -91,7 +117,8 @@ private:
     }
 
     std::string_view rest_;
-    bool isRead_ = false, isColoured_ = false, hasNormalsBeforeColours_ = false;
+    std::string_view word_;
+    bool isRead_ = false;
     std::uint64_t vertices_ = 0, faces_ = 0;
 };
 
@@ -100,16 +127,25 @@ private:
 std::optional<std::string> offForAssimp(std::string_view off) {
     constexpr std::size_t kPlaceAndThreeColours = 6;
     OffLines lines(off);
-    if (!lines.isRead() || !lines.isColoured())
+    const OffKind kind(lines.word());
+    if (!lines.isRead() || kind.isOther)
         return std::nullopt;
     MendedText mended(off);
-    for (std::uint64_t i = 0; i < lines.vertices(); ++i) {
-        const std::string_view line = lines.next();
+    const auto positionOf = [off](const char* at) {
+        return static_cast<std::size_t>(at - off.data());
+    };
+    if (const std::string word = kind.word(); word != lines.word())
+        mended.replace(positionOf(lines.word().data()), lines.word().size(), word);
+    const std::size_t lacking = kPlaceAndThreeColours + (kind.hasPlaces ? 2 : 0);
+    const std::uint64_t vertices = kind.hasColours && !kind.hasNormals ? lines.vertices() : 0;
+    for (std::uint64_t i = 0; i < vertices; ++i) {
+        std::string_view line = lines.next();
         if (line.empty())
             break;
-        const std::size_t last = line.find_last_not_of(kBlank);
-        if (countWords(line) == kPlaceAndThreeColours)
-            mended.replace(static_cast<std::size_t>(line.data() - off.data()) + last + 1, 0, " 1");
+        if (countWords(line) != lacking)
+            continue;
+        for (std::size_t word = 0; word < kPlaceAndThreeColours; ++word) takeWord(line);
+        mended.replace(positionOf(line.data()), 0, " 1");
     }
     return mended.finish();
 }
@@ -118,10 +154,13 @@ std::vector<std::string> offCaveats(std::string_view off) {
     OffLines lines(off);
     if (!lines.isRead())
         return {};
+    const OffKind kind(lines.word());
+    const bool hasNormalsBeforeColours =
+        kind.hasColours && kind.hasNormals && !kind.hasPlaces && !kind.isOther;
     std::uint64_t faces = 0, coloured = 0, large = 0, more = 0, notOpaque = 0;
     std::string_view line;
     for (std::uint64_t i = 0; i < lines.vertices() && !(line = lines.next()).empty(); ++i)
-        notOpaque += lines.hasNormalsBeforeColours() && hasOpacity(line) ? 1 : 0;
+        notOpaque += hasNormalsBeforeColours && hasOpacity(line) ? 1 : 0;
     for (; faces < lines.faces() && !(line = lines.next()).empty(); ++faces) {
         std::uint64_t corners = 0;
         const std::string_view word = takeWord(line);
@@ -138,8 +177,8 @@ std::vector<std::string> offCaveats(std::string_view off) {
                         lines.faces(), faces));
     if (notOpaque > 0)
         caveats.push_back(
-            fmt::format("left out the opacity of {} vertices, which have normals, too: leave these "
-                        "out (COFF), or export it as glTF",
+            fmt::format("left out the opacity of {} vertices, which have normals, too: for "
+                        "see-through surfaces export it as glTF",
                         notOpaque));
     if (coloured > 0)
         caveats.push_back(

@@ -48,6 +48,15 @@ TEST(OffForAssimp, HasTheColoursOfVerticesBehindTheirNormals) {
     }
 }
 
+TEST(OffForAssimp, HasWhatVerticesHaveWhereItsHeaderNamesThatInAnotherOrder) {
+    for (const char* kind : {"STC", "CST"})
+        for (const char* rest : {"1 .5 0 .25 .75", "1 .5 0 1 .25 .75", "255 128 0 .25 .75 # 1"})
+            EXPECT_THAT(read(offOf(kind, rest)).colours, Each(fabric::Rgba{255, 128, 0, 255}))
+                << kind << rest;
+    EXPECT_THAT(read(offOf("NST", "0 0 -1 .25 .75")).normals, Each(glm::vec3(0, 0, -1)));
+    EXPECT_FALSE(offForAssimp(offOf("NC", "1 1 1 1 0 0 -1"))) << "whose order nobody knows";
+}
+
 TEST(OffCaveats, CountOpacitiesBehindNormals) {
     for (const char* opaque : {"", "1", "1.0 # .5"})
         EXPECT_THAT(read(offOf("CN", std::string("0 0 1 1 .5 0 ") + opaque)).notes, IsEmpty());
