@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "renderer/import/byte_colours.h"
+#include "renderer/import/dxf_colours.h"
 
 namespace eyrie::import {
 namespace {
@@ -39,10 +40,16 @@ AssimpColours::AssimpColours(const aiScene& scene, const AssimpFormat& format) :
 
 /// Assimp gives AMF's vertices the colour 0, 0, 0, 0 where the file has none, takes Blender's bytes
 /// for signed ones, and begins to read colours of OFF with the z of a normal before them. glTF's
-/// mean what they say. Where the file has no alpha, it is 0 of some formats', and another of DXF's.
+/// mean what they say. Where the file has no alpha, it is 0 of some formats', and another of DXF's,
+/// the colours of which it takes from another table (dxf_colours.h).
 AssimpColours::OfMesh AssimpColours::look(const aiMesh& mesh) {
     if (mesh.mColors[0] == nullptr)
         return {};
+    if (const auto colour =
+            format_.extension == ".dxf" ? colourOfDxfLayer(mesh.mName.C_Str()) : std::nullopt)
+        return {mesh.mColors[0], true, false,
+                aiColor4D(static_cast<float>(colour->r) / 255, static_cast<float>(colour->g) / 255,
+                          static_cast<float>(colour->b) / 255, 1)};
     const std::span colours(mesh.mColors[0], mesh.mNumVertices);
     const bool haveNoAlpha =
         format_.extension == ".dxf" ||
@@ -66,6 +73,8 @@ aiColor4D AssimpColours::of(unsigned int mesh, unsigned int vertex) const {
     const OfMesh& ofMesh = ofMeshes_[mesh];
     if (ofMesh.colours == nullptr)
         return {1, 1, 1, 1};
+    if (ofMesh.ofAll)
+        return *ofMesh.ofAll;
     aiColor4D colour = ofMesh.colours[vertex];
     if (ofMesh.areShifted)
         colour = {colour.g, colour.b, colour.a, 1};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ private:
         const aiColor4D* colours = nullptr;  ///< one a vertex, or null
         bool areOpaque = false;              ///< whatever their alpha
         bool areShifted = false;             ///< behind a number that is none of theirs
+        std::optional<aiColor4D> ofAll{};    ///< in their place
     };
 
     OfMesh look(const aiMesh& mesh);

@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 #include <glm/vec3.hpp>
 
+#include "renderer/import/dxf_colours.h"
+#include "renderer/import/dxf_records.h"
 #include "renderer/import/mended_text.h"
 
 namespace eyrie::import {
@@ -19,83 +21,6 @@ namespace {
 
 /// Of all that a file inserts in rows and columns; a few numbers may ask for a thousand million.
 constexpr double kMostCopies = 65536;
-
-/// Without the line's end, and blanks before it.
-std::string_view lineAt(std::string_view text, std::size_t& at) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    std::string_view line = text.substr(at, end - at);
-    at = std::min(end + 1, text.size());
-    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
-    return line;
-}
-
-template <typename Number>
-Number numberOf(std::string_view text, Number otherwise) {
-    if (text.starts_with('+'))
-        text.remove_prefix(1);
-    std::from_chars(text.data(), text.data() + text.size(), otherwise);
-    return otherwise;
-}
-
-/// Two lines: the code that says what a value is, and the value.
-struct Group {
-    int code;
-    std::string_view value;
-};
-
-Group groupAt(std::string_view dxf, std::size_t& at) {
-    const int code = numberOf(lineAt(dxf, at), -1);
-    return {code, lineAt(dxf, at)};
-}
-
-/// What a group of the code 0 begins: an entity, a block's begin or end, and so on.
-struct Record {
-    std::string_view section;
-    std::string_view kind;
-    std::size_t begin;
-    std::string_view text;
-
-    /// Of the last group of that code; empty without one.
-    std::string_view value(int code) const {
-        std::string_view found;
-        for (std::size_t at = 0; at < text.size();)
-            if (const Group group = groupAt(text, at); group.code == code)
-                found = group.value;
-        return found;
-    }
-    double number(int code, double otherwise = 0) const { return numberOf(value(code), otherwise); }
-    /// That of the codes 10, 20 and 30 is the first.
-    glm::dvec3 vector(int code, int step, double otherwise) const {
-        return {number(code, otherwise), number(code + step, otherwise),
-                number(code + 2 * step, otherwise)};
-    }
-};
-
-/// Calls `use` with the records of the sections that have something to draw.
-template <typename Use>
-void forEachRecord(std::string_view dxf, const Use& use) {
-    Record record{};
-    const auto finish = [&](std::size_t end) {
-        record.text = dxf.substr(record.begin, end - record.begin);
-        if (record.kind == "SECTION")
-            record.section = record.value(2);
-        else if (record.kind == "ENDSEC")
-            record.section = {};
-        else if (record.section == "BLOCKS" || record.section == "ENTITIES")
-            use(record);
-    };
-    for (std::size_t at = 0; at < dxf.size();) {
-        const std::size_t begin = at;
-        const Group group = groupAt(dxf, at);
-        if (group.code != 0)
-            continue;
-        finish(begin);
-        record.kind = group.value;
-        record.begin = begin;
-    }
-    finish(dxf.size());
-}
 
 bool isRead(std::string_view kind) {
     constexpr std::array<std::string_view, 10> kKinds = {"BLOCK",  "ENDBLK", "INSERT", "POLYLINE",
@@ -106,7 +31,7 @@ bool isRead(std::string_view kind) {
 
 /// How a block is put into the drawing.
 struct Insert {
-    explicit Insert(const Record& record)
+    explicit Insert(const DxfRecord& record)
         : block(record.value(2)),
           place(record.vector(10, 10, 0)),
           scale(record.vector(41, 1, 1)),
@@ -165,15 +90,32 @@ std::string insertsForAssimp(const Insert& insert, const glm::dvec3& base) {
 
 std::map<std::string_view, glm::dvec3> basesOf(std::string_view dxf) {
     std::map<std::string_view, glm::dvec3> bases;
-    forEachRecord(dxf, [&](const Record& record) {
+    forEachDxfRecord(dxf, kDxfDrawn, [&](const DxfRecord& record) {
         if (record.kind == "BLOCK")
             bases[record.value(2)] = record.vector(10, 10, 0);
     });
     return bases;
 }
 
+/// For the colour that the layer stands for.
+void putOnLayer(const DxfRecord& entity, std::string_view layer, MendedText& mended) {
+    constexpr int kLayer = 8;
+    std::size_t at = 0;
+    dxfGroupAt(entity.text, at);
+    const std::size_t behindKind = at;
+    while (at < entity.text.size()) {
+        const DxfGroup group = dxfGroupAt(entity.text, at);
+        if (group.code != kLayer)
+            continue;
+        const auto offset = static_cast<std::size_t>(group.value.data() - entity.text.data());
+        mended.replace(entity.begin + offset, group.value.size(), layer);
+        return;
+    }
+    mended.replace(entity.begin + behindKind, 0, fmt::format("{}\n{}\n", kLayer, layer));
+}
+
 /// A solid, a mesh of rows and columns, or a line that is drawn out to a height.
-bool isLostSurface(const Record& record) {
+bool isLostSurface(const DxfRecord& record) {
     constexpr std::array<std::string_view, 13> kKinds = {
         "SOLID",           "TRACE",       "MESH",           "3DSOLID",      "BODY",
         "REGION",          "SURFACE",     "PLANESURFACE",   "SWEPTSURFACE", "LOFTEDSURFACE",
@@ -183,18 +125,21 @@ bool isLostSurface(const Record& record) {
     constexpr int kIsOfRows = 16;
     return std::ranges::count(kKinds, record.kind) > 0 ||
            (std::ranges::count(kLines, record.kind) > 0 && record.number(39) != 0) ||
-           (record.kind == "POLYLINE" && (numberOf(record.value(70), 0) & kIsOfRows) != 0);
+           (record.kind == "POLYLINE" && (dxfNumberOf(record.value(70), 0) & kIsOfRows) != 0);
 }
 
 }  // namespace
 
 std::optional<std::string> dxfForAssimp(std::string_view dxf) {
     const std::map<std::string_view, glm::dvec3> bases = basesOf(dxf);
+    const DxfColours colours(dxf);
     MendedText mended(dxf);
     Placing placing;
-    forEachRecord(dxf, [&](const Record& record) {
+    forEachDxfRecord(dxf, kDxfDrawn, [&](const DxfRecord& record) {
         if (!isRead(record.kind))
             mended.replace(record.begin, record.text.size(), "");
+        if (colours.areAny() && (record.kind == "3DFACE" || record.kind == "POLYLINE"))
+            putOnLayer(record, dxfLayerOf(colours.of(record)), mended);
         if (record.kind != "INSERT" || record.section != "ENTITIES")
             return;
         const Insert insert(record);
@@ -216,7 +161,7 @@ std::vector<std::string> dxfCaveats(std::string_view dxf) {
     std::uint64_t misplaced = 0, surfaces = 0;
     Placing placing;
     std::set<std::string_view> kinds;
-    forEachRecord(dxf, [&](const Record& record) {
+    forEachDxfRecord(dxf, kDxfDrawn, [&](const DxfRecord& record) {
         if (record.kind == "INSERT" && record.section == "ENTITIES")
             misplaced += placing.isRight(Insert(record)) ? 0 : 1;
         if (!isLostSurface(record))

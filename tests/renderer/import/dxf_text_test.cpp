@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -92,6 +93,63 @@ TEST(DxfForAssimp, LeavesAsTheyAreFilesThatAreReadRightly) {
     EXPECT_FALSE(dxfForAssimp(""));
     EXPECT_FALSE(dxfForAssimp("0\nINSERT\n41\n2\n"));
     EXPECT_FALSE(dxfForAssimp(dxfOf(0, "", "0\nINSERT\n2\nB\n41\n0\n"))) << "which has no area";
+}
+
+/// Groups of the codes 10, 20, 30 on.
+std::string placeOf(int first, double x, double y, double z) {
+    return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", first, x, first + 10, y, first + 20, z);
+}
+
+std::string drawingOf(const std::string& entities, const std::string& layers = "") {
+    return "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n" + layers +
+           "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" + entities + "0\nENDSEC\n0\nEOF\n";
+}
+
+/// Of a face that has such groups.
+fabric::Rgba colourOf(const std::string& groups, const std::string& layers = "") {
+    const std::string face = "0\n3DFACE\n" + groups + placeOf(10, 0, 0, 0) + placeOf(11, 1, 0, 0) +
+                             placeOf(12, 1, 1, 0) + placeOf(13, 1, 1, 0);
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.dxf"), drawingOf(face, layers));
+    const auto mesh = readWithAssimp(folder.file("m.dxf"));
+    EXPECT_TRUE(mesh.ok()) << mesh.status();
+    return mesh.ok() && !mesh->colours.empty() ? mesh->colours[0] : fabric::Rgba{};
+}
+
+TEST(DxfForAssimp, HasTheColoursOfAutoCadsTable) {
+    struct Case {
+        int index;
+        int red, green, blue;
+    };
+    for (const auto& [index, red, green, blue] :
+         {Case{1, 255, 0, 0},   {2, 255, 255, 0},   {3, 0, 255, 0},
+          {6, 255, 0, 255},     {7, 153, 153, 153}, {0, 153, 153, 153},
+          {8, 65, 65, 65},      {10, 255, 0, 0},    {11, 255, 170, 170},
+          {12, 189, 0, 0},      {30, 255, 127, 0},  {50, 255, 255, 0},
+          {70, 127, 255, 0},    {90, 0, 255, 0},    {134, 0, 129, 129},
+          {170, 0, 0, 255},     {200, 191, 0, 255}, {239, 79, 52, 65},
+          {240, 255, 0, 63},    {250, 51, 51, 51},  {255, 255, 255, 255},
+          {256, 153, 153, 153}, {-5, 0, 0, 255},    {-2147483648, 153, 153, 153}}) {
+        const fabric::Rgba colour = colourOf(fmt::format("8\n0\n62\n{}\n", index));
+        EXPECT_NEAR(colour.r, red, 1) << index;
+        EXPECT_NEAR(colour.g, green, 1) << index;
+        EXPECT_NEAR(colour.b, blue, 1) << index;
+        EXPECT_EQ(colour.a, 255) << index;
+    }
+}
+
+TEST(DxfForAssimp, HasColoursOfLayersAndOnesOfRedGreenAndBlue) {
+    const std::string layers =
+        "0\nLAYER\n2\nwalls\n70\n0\n62\n1\n0\nLAYER\n2\nroof\n62\n3\n420\n1056816\n"
+        "0\nLAYER\n2\n0\n62\n7\n";
+    const fabric::Rgba red{255, 0, 0, 255}, grey{153, 153, 153, 255}, own{16, 32, 48, 255};
+    EXPECT_EQ(colourOf("8\nwalls\n", layers), red);
+    EXPECT_EQ(colourOf("62\n256\n8\nwalls\n", layers), red);
+    EXPECT_EQ(colourOf("8\nroof\n", layers), own);
+    EXPECT_EQ(colourOf("8\n0\n", layers), grey);
+    EXPECT_EQ(colourOf("62\n1\n", layers), red) << "on no layer";
+    EXPECT_EQ(colourOf("8\nwalls\n62\n5\n420\n1056816\n", layers), own);
+    EXPECT_EQ(colourOf("8\nwalls\n62\n7\n", layers), grey);
 }
 
 TEST(DxfCaveats, CountBlocksThatAreNotPutAsTheFileHasThem) {
