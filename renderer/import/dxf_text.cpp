@@ -114,6 +114,21 @@ void putOnLayer(const DxfRecord& entity, std::string_view layer, MendedText& men
     mended.replace(entity.begin + behindKind, 0, fmt::format("{}\n{}\n", kLayer, layer));
 }
 
+/// Of a face of a polyface mesh: the corner before an edge that is not shown has a number below 0,
+/// and Assimp leaves such out.
+void showEdges(const DxfRecord& vertex, MendedText& mended) {
+    constexpr int kFlags = 70, kFirstCorner = 71, kLastCorner = 74, kIsPlace = 64, kIsFace = 128;
+    if ((dxfNumberOf(vertex.value(kFlags), 0) & (kIsPlace | kIsFace)) != kIsFace)
+        return;
+    for (std::size_t at = 0; at < vertex.text.size();) {
+        const DxfGroup group = dxfGroupAt(vertex.text, at);
+        if (group.code < kFirstCorner || group.code > kLastCorner || !group.value.starts_with('-'))
+            continue;
+        const auto offset = static_cast<std::size_t>(group.value.data() - vertex.text.data());
+        mended.replace(vertex.begin + offset, 1, "");
+    }
+}
+
 /// A solid, a mesh of rows and columns, or a line that is drawn out to a height.
 bool isLostSurface(const DxfRecord& record) {
     constexpr std::array<std::string_view, 13> kKinds = {
@@ -140,6 +155,8 @@ std::optional<std::string> dxfForAssimp(std::string_view dxf) {
             mended.replace(record.begin, record.text.size(), "");
         if (colours.areAny() && (record.kind == "3DFACE" || record.kind == "POLYLINE"))
             putOnLayer(record, dxfLayerOf(colours.of(record)), mended);
+        if (record.kind == "VERTEX")
+            showEdges(record, mended);
         if (record.kind != "INSERT" || record.section != "ENTITIES")
             return;
         const Insert insert(record);

@@ -12,7 +12,8 @@ namespace eyrie::import {
 /// moves a block before it scales it, and takes its base away after that; passes over the rows and
 /// columns in which blocks are inserted; and takes the places, names and braces of entities that it
 /// does not read for those of the block around them. Blocks that are turned stay unturned. It
-/// has other colours: layers are called by those (dxf_colours.h).
+/// leaves out corners of polyface meshes before edges that are not shown, and has other colours:
+/// layers are called by those (dxf_colours.h).
 std::optional<std::string> dxfForAssimp(std::string_view dxf);
 
 /// For TriangleMesh::notes: blocks that are not where the file has them, even so, and surfaces that

@@ -105,6 +105,19 @@ std::string drawingOf(const std::string& entities, const std::string& layers = "
            "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" + entities + "0\nENDSEC\n0\nEOF\n";
 }
 
+TEST(DxfForAssimp, KeepsCornersOfPolyfaceMeshesBeforeEdgesThatAreNotShown) {
+    std::string mesh = "0\nPOLYLINE\n8\n0\n66\n1\n70\n64\n71\n4\n72\n2\n";
+    for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+        mesh += "0\nVERTEX\n8\n0\n" + placeOf(10, x, y, -2) + "70\n192\n";
+    mesh += "0\nVERTEX\n8\n0\n" + placeOf(10, 0, 0, 0) +
+            "70\n128\n71\n1\n72\n2\n73\n-3\n"
+            "0\nVERTEX\n8\n0\n70\n128\n71\n -1\n72\n3\n73\n-4\n0\nSEQEND\n";
+    const Read found = read(drawingOf(mesh));
+    EXPECT_EQ(found.triangles, 2U);
+    EXPECT_EQ(found.bounds.min, fabric::Vec3(0, 0, -2));
+    EXPECT_EQ(found.bounds.max, fabric::Vec3(1, 1, -2));
+}
+
 /// Of a face that has such groups.
 fabric::Rgba colourOf(const std::string& groups, const std::string& layers = "") {
     const std::string face = "0\n3DFACE\n" + groups + placeOf(10, 0, 0, 0) + placeOf(11, 1, 0, 0) +
