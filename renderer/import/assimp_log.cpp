@@ -38,6 +38,7 @@ bool tellsOfALoss(std::string_view text) {
                                     "kipping",
                                     "discarding",
                                     "invalid index",
+                                    "index overflow",
                                     "out-of-range",
                                     "out of range",
                                     "gnoring",

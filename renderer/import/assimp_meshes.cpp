@@ -43,14 +43,15 @@ std::uint8_t byteOf(float value, bool isLinear) {
     return static_cast<std::uint8_t>(std::lround(255 * shown));
 }
 
-/// That of OFF, whose files have none, has no name and is grey.
+/// That of OFF, whose files have none, has no name and is grey; 3DS has a name of its own for one.
 bool hasOwnMaterial(const aiMaterial& material, const AssimpFormat& format) {
+    constexpr std::array<std::string_view, 2> kNotOwn = {AI_DEFAULT_MATERIAL_NAME, "%%%DEFAULT"};
     aiString name;
     aiColor4D ignored;
     return format.extension != ".off" &&
            material.Get(AI_MATKEY_COLOR_DIFFUSE, ignored) == AI_SUCCESS &&
            !(material.Get(AI_MATKEY_NAME, name) == AI_SUCCESS &&
-             std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME);
+             std::ranges::count(kNotOwn, std::string_view(name.C_Str())) > 0);
 }
 
 /// Whether a mesh shows others' shapes besides its own.

@@ -250,6 +250,39 @@ TEST(AssimpReader, PassesPrimitivesOfGltfWithoutPositionsOver) {
     EXPECT_EQ(other->triangles.size(), 1U) << "of the second node's mesh";
 }
 
+std::string chunkOf3ds(int id, const std::string& content) {
+    const auto bytesOf = [](std::size_t value, int count) {
+        std::string bytes;
+        for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xFF);
+        return bytes;
+    };
+    return bytesOf(static_cast<std::size_t>(id), 2) + bytesOf(content.size() + 6, 4) + content;
+}
+
+/// A triangle without a material, whose last corner may be no vertex.
+std::string threeDsOf(char lastCorner) {
+    std::string vertices("\3\0", 2);
+    for (const float value : {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F})
+        vertices.append(reinterpret_cast<const char*>(&value), sizeof value);
+    std::string faces("\1\0\0\0\1\0\2\0\7\0", 10);
+    faces[6] = lastCorner;
+    const std::string mesh =
+        chunkOf3ds(0x4100, chunkOf3ds(0x4110, vertices) + chunkOf3ds(0x4120, faces));
+    return chunkOf3ds(0x4D4D, chunkOf3ds(0x3D3D, chunkOf3ds(0x4000, std::string("a\0", 2) + mesh)));
+}
+
+TEST(AssimpReader, Has3dsWithoutMaterialsPlainAndTellsOfCornersThatAreNoVertices) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.3ds"), threeDsOf(2));
+    const auto mesh = readWithAssimp(folder.file("m.3ds"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_EQ(mesh->triangles.size(), 1U);
+    EXPECT_THAT(mesh->colours, IsEmpty());
+    EXPECT_THAT(mesh->notes, IsEmpty());
+    EXPECT_THAT(notesOfFile(folder.file("m.3ds"), threeDsOf(9)),
+                ElementsAre(HasSubstr("Vertex index overflow")));
+}
+
 /// A face that is put in once, turned by so many degrees, in a file that may be cut off.
 std::string dxfOfABlock(int degrees, std::string_view end) {
     return fmt::format(
