@@ -176,6 +176,10 @@ void AssimpMaterials::countLeftOut(const aiMaterial& material) {
         isAny = isAny || hasOtherTexture(material, static_cast<aiTextureType>(type));
     withOthers_ += isAny ? 1 : 0;
     withOpacity_ += hasOtherTexture(material, aiTextureType_OPACITY) ? 1 : 0;
+    aiColor4D own(1, 1, 1, 1), emitted(0, 0, 0, 1);
+    material.Get(AI_MATKEY_COLOR_DIFFUSE, own);
+    material.Get(AI_MATKEY_COLOR_EMISSIVE, emitted);
+    emitting_ += emitted.r > own.r || emitted.g > own.g || emitted.b > own.b ? 1 : 0;
 }
 
 AssimpMaterials::Entry AssimpMaterials::read(const aiMaterial& material) {
@@ -277,6 +281,11 @@ void AssimpMaterials::moveTo(TriangleMesh& mesh) {
                               "give the opacity as the alpha of the colour's image",
                               withOpacity_)
                 : ""));
+    if (emitting_ > 0)
+        mesh.notes.push_back(
+            fmt::format("left out the light of {} of {} materials that emit more than they "
+                        "reflect: they are darker than they ought to be",
+                        emitting_, entries_.size()));
     const std::span meshes(scene_.mMeshes, scene_.mNumMeshes);
     const auto withoutPlaces = std::ranges::count_if(meshes, [this](const aiMesh* one) {
         const Entry* entry = find(*one);

@@ -70,6 +70,7 @@ private:
     std::size_t takenForOpaque_ = 0;
     std::size_t withOthers_ = 0;   ///< materials with textures that are left out
     std::size_t withOpacity_ = 0;  ///< of these, those where one is the opacity
+    std::size_t emitting_ = 0;     ///< materials that emit more than they reflect
     std::size_t mirrored_ = 0;     ///< materials whose texture is to be mirrored where it repeats
     std::size_t decals_ = 0;       ///< materials whose texture is to cover its own place only
     std::vector<Entry> entries_;

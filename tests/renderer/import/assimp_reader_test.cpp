@@ -250,6 +250,18 @@ TEST(AssimpReader, PassesPrimitivesOfGltfWithoutPositionsOver) {
     EXPECT_EQ(other->triangles.size(), 1U) << "of the second node's mesh";
 }
 
+TEST(AssimpReader, CountsMaterialsThatEmitMoreThanTheyReflect) {
+    const test::TemporaryFolder folder;
+    const auto notesWith = [&](const std::string& emitted) {
+        std::string ac = test::kAc3d;
+        ac.replace(ac.find("emis 0 0 0"), 10, "emis " + emitted);
+        return notesOfFile(folder.file("m.ac"), ac);
+    };
+    EXPECT_THAT(notesWith("1 0 0"), ElementsAre(HasSubstr("'loc'")));
+    EXPECT_THAT(notesWith("0.5 0.1 0"), testing::Contains(HasSubstr("the light of 1 of 2 materials "
+                                                                    "that emit more")));
+}
+
 std::string chunkOf3ds(int id, const std::string& content) {
     const auto bytesOf = [](std::size_t value, int count) {
         std::string bytes;
