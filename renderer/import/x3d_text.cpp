@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/mat2x2.hpp>
@@ -102,6 +104,29 @@ std::string stripsForAssimp(std::string_view tag, std::uint64_t fileBytes) {
 constexpr std::array<std::string_view, 4> kMended = {"<ImageTexture", "<TextureTransform",
                                                      "<TriangleStripSet", "</TriangleStripSet"};
 
+/// The end of a comment or of characters that are none of XML's; nothing of a tag.
+std::optional<std::size_t> endOfOther(std::string_view text) {
+    for (const auto& [begin, end] :
+         {std::pair<std::string_view, std::string_view>{"<!--", "-->"}, {"<![CDATA[", "]]>"}})
+        if (text.starts_with(begin))
+            return std::min(text.find(end), text.size() - end.size()) + end.size();
+    return std::nullopt;
+}
+
+/// With blanks for the commas between numbers: Assimp passes over what follows one without a blank.
+std::string withoutCommas(std::string_view tag) {
+    constexpr std::string_view kOfNumbers = "0123456789+-.eE \t\r\n,";
+    std::string result(tag);
+    for (std::size_t begin = tag.find_first_of("\"'"); begin < tag.size();) {
+        const std::size_t end = std::min(tag.find(tag[begin], begin + 1), tag.size());
+        if (std::min(tag.find_first_not_of(kOfNumbers, begin + 1), tag.size()) == end)
+            std::replace(result.begin() + static_cast<std::ptrdiff_t>(begin),
+                         result.begin() + static_cast<std::ptrdiff_t>(end), ',', ' ');
+        begin = end < tag.size() ? tag.find_first_of("\"'", end + 1) : tag.size();
+    }
+    return result;
+}
+
 std::string tagForAssimp(std::string_view tag, std::uint64_t fileBytes) {
     if (tag.starts_with(kMended[0]))
         return imageForAssimp(tag);
@@ -116,14 +141,18 @@ std::string tagForAssimp(std::string_view tag, std::uint64_t fileBytes) {
 std::string x3dForAssimp(std::string_view x3d) {
     std::string result;
     std::size_t copied = 0;
-    for (std::size_t at = x3d.find('<'); at != std::string_view::npos;) {
+    for (std::size_t at = x3d.find('<'); at < x3d.size();) {
         const std::string_view rest = x3d.substr(at);
-        if (std::ranges::any_of(kMended, [&](auto begin) { return rest.starts_with(begin); })) {
-            const std::string_view tag = rest.substr(0, endOfTag(rest));
-            result.append(x3d.substr(copied, at - copied)).append(tagForAssimp(tag, x3d.size()));
+        const std::optional<std::size_t> other = endOfOther(rest);
+        const std::string_view tag = rest.substr(0, other ? *other : endOfTag(rest));
+        const bool isMended =
+            std::ranges::any_of(kMended, [&](auto begin) { return rest.starts_with(begin); });
+        if (isMended || (!other && tag.find(',') != tag.npos)) {
+            result.append(x3d.substr(copied, at - copied))
+                .append(withoutCommas(isMended ? tagForAssimp(tag, x3d.size()) : std::string(tag)));
             copied = at + tag.size();
         }
-        at = x3d.find('<', std::max(copied, at + 1));
+        at = x3d.find('<', at + tag.size());
     }
     return result.append(x3d.substr(copied));
 }

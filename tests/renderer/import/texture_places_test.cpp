@@ -159,11 +159,30 @@ TEST(ColoursOfX3d, OfFacesAreToldOf) {
     }
 }
 
+/// Of a square of which the second half is behind a comma, with such colours in such a material.
+TriangleMesh squareOfX3d(std::string_view material, std::string_view colours) {
+    return read("m.x3d", fmt::format("<?xml version='1.0'?><X3D version='3.0'><Scene><!-- it's 1,2 "
+                                     "--><Transform translation='1,2,3'><Shape><Appearance>"
+                                     "<Material {}/></Appearance>"
+                                     "<IndexedFaceSet coordIndex='0 1 2 -1,0,2,3,-1'>"
+                                     "<Coordinate point=\"0 0 0,1 0 0,1 1 0,0,1,0\"/>{}"
+                                     "</IndexedFaceSet></Shape></Transform></Scene></X3D>",
+                                     material, colours));
+}
+
+TEST(NumbersOfX3d, MayHaveCommasBetweenThem) {
+    const TriangleMesh mesh = squareOfX3d("diffuseColor='1,0,0'", "");
+    EXPECT_EQ(mesh.triangles.size(), 2U);
+    EXPECT_THAT(mesh.positions, testing::Contains(fabric::Vec3(2, -3, 3)));
+    EXPECT_THAT(mesh.colours, testing::Each(fabric::Rgba{255, 0, 0, 255}));
+}
+
 TEST(X3dText, StaysWhereThereIsNothingToMend) {
     for (const std::string_view text :
          {"", "<X3D/>", "<ImageTexture", "<ImageTexture url='", "<ImageTexture url='\"\"'/>",
           "<ImageTexture url=''/>", "<TextureTransform scale='2 2'/>",
-          "<TextureTransform center='1 1' scale='0 1'/>"})
+          "<TextureTransform center='1 1' scale='0 1'/>", "<!-- it's <a b='1,2'/> --><c/>",
+          "<![CDATA[ <a b='1,2'/>", "<meta content='1, two'/>", "<a b='1 2'/>, <c/>"})
         EXPECT_EQ(x3dForAssimp(text), text);
 }
 
