@@ -141,6 +141,8 @@ void SceneMeshes::addColours(unsigned int number) {
     aiColor4D diffuse = colours_.areAnyOf(number) ? aiColor4D(1, 1, 1, 1) : kPlain;
     if (material != nullptr)
         diffuse = materials_.colourOf(mesh);
+    if (format_.extension == ".x3d" && colours_.areAnyOf(number))
+        diffuse = {1, 1, 1, diffuse.a};  // where these stand for the material's
     const bool isOpaque = !format_.isGltf() && !materials_.mayShowWhatIsBehind(mesh);
     for (unsigned int i = 0; i < mesh.mNumVertices; ++i) {
         const aiColor4D own = colours_.of(number, i);

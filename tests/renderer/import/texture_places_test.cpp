@@ -177,6 +177,13 @@ TEST(NumbersOfX3d, MayHaveCommasBetweenThem) {
     EXPECT_THAT(mesh.colours, testing::Each(fabric::Rgba{255, 0, 0, 255}));
 }
 
+TEST(ColoursOfX3d, OfVerticesStandForThoseOfMaterials) {
+    const TriangleMesh mesh = squareOfX3d("diffuseColor='1 0 0' transparency='0.6'",
+                                          "<Color color='0 1 1, 0 1 1, 0 1 1, 0 1 1'/>");
+    EXPECT_THAT(mesh.colours, testing::SizeIs(4));
+    EXPECT_THAT(mesh.colours, testing::Each(fabric::Rgba{0, 255, 255, 102}));
+}
+
 TEST(X3dText, StaysWhereThereIsNothingToMend) {
     for (const std::string_view text :
          {"", "<X3D/>", "<ImageTexture", "<ImageTexture url='", "<ImageTexture url='\"\"'/>",
