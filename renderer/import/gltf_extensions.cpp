@@ -47,6 +47,24 @@ std::vector<std::string> namesAt(std::string_view json, std::string_view key) {
     return names;
 }
 
+/// What is lost of a file that uses an extension.
+struct Loss {
+    std::string_view extension;
+    const char* caveat;
+};
+constexpr std::array kLosses = {
+    Loss{"CESIUM_RTC",
+         "left out the centre that its coordinates are relative to (CESIUM_RTC): it is put around "
+         "the origin"},
+    Loss{"EXT_mesh_gpu_instancing",
+         "left out copies of its meshes (EXT_mesh_gpu_instancing): each is where its node is"},
+    Loss{"KHR_materials_transmission",
+         "what is clear as glass (KHR_materials_transmission) is opaque: give its materials the "
+         "alphaMode BLEND and less alpha"},
+    Loss{"KHR_node_visibility",
+         "shows nodes, too, that are not to be seen (KHR_node_visibility): leave these out"},
+};
+
 /// Without taking apart all that a file may have in its texts.
 std::size_t countScenes(std::string_view json) {
     constexpr std::string_view kKey = "\"scenes\"";
@@ -153,14 +171,9 @@ std::vector<std::string> gltfCaveats(std::span<const std::byte> bytes) {
     const std::string_view json = gltfChunksOf(bytes).json;
     std::vector<std::string> caveats;
     for (const std::string& extension : namesAt(json, "extensionsUsed")) {
-        if (extension == "CESIUM_RTC")
-            caveats.emplace_back(
-                "left out the centre that its coordinates are relative to (CESIUM_RTC): it is put "
-                "around the origin");
-        if (extension == "EXT_mesh_gpu_instancing")
-            caveats.emplace_back(
-                "left out copies of its meshes (EXT_mesh_gpu_instancing): each is where its node "
-                "is");
+        for (const auto& [name, caveat] : kLosses)
+            if (extension == name)
+                caveats.emplace_back(caveat);
         if (std::ranges::count(kImages, extension) > 0)
             if (std::string caveat = textureCaveat(json, extension); !caveat.empty())
                 caveats.push_back(std::move(caveat));

@@ -82,11 +82,15 @@ TEST(GltfExtensions, AreWhatTheFileSaysTheyAreAndNotWhatItsTextsSay) {
     EXPECT_FALSE(checkGltfExtensions(bytesOf(R"({"extensionsRequired":["x)")).ok());
 }
 
-TEST(GltfExtensions, ThatMoveOrRepeatMeshesAreToldOfWhereTheyAreLeftOut) {
+TEST(GltfExtensions, ThatMoveRepeatHideOrClearMeshesAreToldOfWhereTheyAreLeftOut) {
     EXPECT_THAT(gltfCaveats(bytesOf(R"({"extensionsUsed": ["KHR_materials_unlit"]})")), IsEmpty());
     EXPECT_THAT(
         gltfCaveats(bytesOf(R"({"extensionsUsed": ["CESIUM_RTC", "EXT_mesh_gpu_instancing"]})")),
         ElementsAre(HasSubstr("CESIUM_RTC"), HasSubstr("EXT_mesh_gpu_instancing")));
+    EXPECT_THAT(
+        gltfCaveats(bytesOf(
+            R"({"extensionsUsed": ["KHR_node_visibility", "KHR_materials_transmission"]})")),
+        ElementsAre(HasSubstr("nodes, too, that are not to be seen"), HasSubstr("is opaque")));
 }
 
 TEST(GltfScenes, ThatAreNotShownAreCounted) {
