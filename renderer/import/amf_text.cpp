@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/import/amf_volumes.h"
 #include "renderer/import/mended_text.h"
 
 namespace eyrie::import {
@@ -43,11 +44,14 @@ bool isTurn(std::string_view degrees) {
 }  // namespace
 
 std::optional<std::string> amfForAssimp(std::string_view amf) {
-    MendedText mended(amf);
-    forEachAngle(amf, [&](std::size_t begin, std::size_t end, std::string_view) {
+    std::optional<std::string> joined = withJoinedVolumes(amf);
+    const std::string_view text = joined ? std::string_view(*joined) : amf;
+    MendedText mended(text);
+    forEachAngle(text, [&](std::size_t begin, std::size_t end, std::string_view) {
         mended.replace(begin, end - begin, "");
     });
-    return mended.finish();
+    std::optional<std::string> result = mended.finish();
+    return result ? result : joined;
 }
 
 std::vector<std::string> amfCaveats(std::string_view amf) {

@@ -9,7 +9,7 @@
 namespace eyrie::import {
 
 /// An AMF file without the angles of its instances (ISO/ASTM 52915), which Assimp 5.2 takes for the
-/// places; nothing for one without any.
+/// places, and with one volume a mesh (amf_volumes.h); nothing for one that is so.
 std::optional<std::string> amfForAssimp(std::string_view amf);
 
 /// For TriangleMesh::notes: how many instances are turned, which are left as they are.

@@ -76,6 +76,8 @@ aiColor4D AssimpColours::of(unsigned int mesh, unsigned int vertex) const {
     if (ofMesh.ofAll)
         return *ofMesh.ofAll;
     aiColor4D colour = ofMesh.colours[vertex];
+    if (format_.extension == ".amf" && isNothing(colour))
+        return {1, 1, 1, 1};
     if (ofMesh.areShifted)
         colour = {colour.g, colour.b, colour.a, 1};
     if (ofMesh.areOpaque)
