@@ -240,9 +240,11 @@ absl::StatusOr<compound::Plan> ActiveConfiguration::plan(const FrameRequest& req
     ASSIGN_OR_RETURN(compound::PlanRequest asked, planRequestOf(request));
     asked.frameNumber = frameNumber;
     Balance& balance = balanceOf(request.session);
+    std::vector<std::size_t> canvases;
+    for (const compound::Output& output : asked.outputs) canvases.push_back(output.canvas);
     balance.equalizers.apply(balance.live,
                              {frameNumber, drawnAs(asked), gone(away),
-                              request.completeness == fabric::Completeness::Complete});
+                              request.completeness == fabric::Completeness::Complete, canvases});
     return compound::makePlan(balance.live, asked);
 }
 

@@ -83,7 +83,7 @@ public:
     }
 
     void apply() {
-        equalizers.apply(live, {++number, asWritten, gone, isComplete});
+        equalizers.apply(live, {++number, asWritten, gone, isComplete, canvases});
         resolve();
     }
 
@@ -97,7 +97,8 @@ public:
     config::ResolvedConfiguration asWritten;
     std::vector<config::ChannelIndex> gone;
     bool isComplete = false;
-    std::size_t late = 0;  ///< frames that are planned before one's times are known
+    std::vector<std::size_t> canvases;  ///< asked for; none: all
+    std::size_t late = 0;               ///< frames that are planned before one's times are known
     Equalizers equalizers;
     std::uint64_t number = 0;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Views and canvases beside each other, whose compounds share frames.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "composed_pictures.h"
+#include "coordinator/compound/equalizer/equalizers.h"
 #include "coordinator/compound/plan.h"
 #include "coordinator/config/eqc_reader.h"
 #include "coordinator/config/one_channel.h"
@@ -44,6 +47,20 @@ PlanRequest bothCanvases() {
     return request;
 }
 
+fabric::Rgba pixel(const fabric::Image& image, int x, int y) {
+    return image.colour[static_cast<std::size_t>(y * image.area.width + x)];
+}
+
+fabric::Rgba meanOfFour(const fabric::Image& image, int x, int y) {
+    const auto mean = [&](std::uint8_t fabric::Rgba::*of) {
+        const int sum = pixel(image, x, y).*of + pixel(image, x + 1, y).*of +
+                        pixel(image, x, y + 1).*of + pixel(image, x + 1, y + 1).*of;
+        return static_cast<std::uint8_t>((sum + 2) / 4);
+    };
+    return {mean(&fabric::Rgba::r), mean(&fabric::Rgba::g), mean(&fabric::Rgba::b),
+            mean(&fabric::Rgba::a)};
+}
+
 TEST(Compose, WhoTakesAFrameWithoutItsDepthLeavesItToOthers) {
     const config::Configuration configuration = twoCanvases(
         "compound { compound { channel ( canvas 0 segment 0 layout 0 view 0 ) buffer [ COLOR DEPTH "
@@ -75,6 +92,53 @@ TEST(Compose, WhatIsDrawnInOtherPixelsIsShownThoughOthersTakeIt) {
     const auto background = fabric::makeImage({0, 0, 40, 24}, LayeredScene::kBackground, false);
     EXPECT_GT(differingPixels(taken[0], background), 0);
     EXPECT_GT(differingPixels(taken[1], background), 0);
+}
+
+/// A wall and two monitors of the same frame, one with half its pixels each way, one with a
+/// quarter: the larger's pixels are there for both.
+TEST(Compose, MonitorsOfOneFrameShowItAsLargeAsTheyAre) {
+    std::string windows;
+    std::string canvases;
+    std::string monitors;
+    int canvas = 0;
+    PlanRequest request;
+    for (const int width : {40, 20, 10}) {
+        const int height = width * 3 / 5;
+        windows += fmt::format("window {{ viewport [ 0 0 {} {} ] channel {{ name \"{}\" }} }} ",
+                               width, height, canvas);
+        canvases += fmt::format("canvas {{ layout 0 segment {{ channel \"{}\" }} }} ", canvas);
+        if (canvas > 0) {
+            monitors += fmt::format(
+                "compound {{ channel ( canvas {} segment 0 layout 0 view 0 ) "
+                "monitor_equalizer {{ }} task [ CLEAR ASSEMBLE ] inputframe {{ "
+                "name \"f\" }} }} ",
+                canvas);
+        }
+        request.outputs.emplace_back().canvas = static_cast<std::size_t>(canvas++);
+        request.outputs.back().size = config::PixelSize{width, height};
+    }
+    config::Findings findings;
+    config::Configuration configuration = config::readEqc(
+        "config { appNode { pipe { " + windows + "} } layout { view {} } " + canvases +
+            "compound { compound { channel ( canvas 0 segment 0 layout 0 view 0 ) outputframe { "
+            "name \"f\" } } " +
+            monitors + "} }",
+        findings);
+    const config::Configuration written = configuration;
+    const config::ResolvedConfiguration resolved = config::resolve(written, findings);
+    ASSERT_FALSE(findings.hasErrors()) << config::describe(findings, "f");
+    equalizer::Equalizers(written).apply(configuration, {.resolved = resolved});
+    const auto made = pictures(configuration, request, LayeredScene(3, 40, 24));
+    ASSERT_EQ(made.size(), 3U);
+    for (std::size_t i = 1; i < 3; ++i) {
+        const fabric::Image& small = made[i];
+        const fabric::Image& large = made[i - 1];
+        ASSERT_EQ(large.area.width, 2 * small.area.width);
+        for (int y = 0; y < small.area.height; ++y)
+            for (int x = 0; x < small.area.width; ++x)
+                ASSERT_EQ(pixel(small, x, y), meanOfFour(large, 2 * x, 2 * y))
+                    << i << ": " << x << " " << y;
+    }
 }
 
 TEST(Compose, BothGlassesSeeTheSameOfAViewWithoutStereo) {

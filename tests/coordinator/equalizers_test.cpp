@@ -320,6 +320,105 @@ TEST(MonitorEqualizer, HasPicturesReadAsSmallAsTheyAreShown) {
     EXPECT_TRUE(balanced.live == balanced.written);
 }
 
+/// A wall of 1280 x 720 whose picture, frame "w", comes to these, and the places of the compounds
+/// that take it: 2 and 3.
+Balanced wallWithMonitors(const std::string& first, const std::string& second) {
+    const auto window = [](const char* channel, int width, int height) {
+        return fmt::format("window {{ viewport [ 0 0 {} {} ] channel {{ name \"{}\" }} }} ", width,
+                           height, channel);
+    };
+    const std::string canvas = "canvas { layout 0 segment { channel \"";
+    config::Findings findings;
+    config::Configuration configuration = config::readEqc(
+        "server { config { appNode { pipe { " + window("wall", 1280, 720) + window("a", 640, 90) +
+            window("b", 320, 360) + "} } layout { view { } } " + canvas + "wall\" } } " + canvas +
+            "a\" } } " + canvas +
+            "b\" } }\n"
+            "compound { compound { channel ( canvas 0 segment 0 layout 0 view 0 ) outputframe { "
+            "name \"w\" zoom [ .75 .125 ] } }\n"
+            "compound { channel ( canvas 1 segment 0 layout 0 view 0 ) " +
+            first + " }\ncompound { channel ( canvas 2 segment 0 layout 0 view 0 ) " + second +
+            " } } } }",
+        findings);
+    EXPECT_FALSE(findings.hasErrors()) << config::describe(findings, "the test's");
+    return Balanced(std::move(configuration));
+}
+
+std::optional<fabric::Vec2> wallZoom(const Balanced& wall) {
+    return wall.live.compounds[0].children[0].outputFrames[0].zoom;
+}
+
+const std::string kMonitor = "monitor_equalizer { } inputframe { name \"w\" }";
+
+TEST(MonitorEqualizer, HasAFrameReadAsLargeAsTheLargestOfItsMonitorsShowsIt) {
+    Balanced wall = wallWithMonitors(kMonitor, kMonitor);
+    wall.apply();
+    EXPECT_EQ(wallZoom(wall), fabric::Vec2(.5, .5)) << "across for one, along for the other";
+    Tuning frozen;
+    frozen.isFrozen = true;
+    ASSERT_TRUE(wall.equalizers.tune("monitor.2", frozen).ok());
+    wall.apply();
+    EXPECT_EQ(wallZoom(wall), fabric::Vec2(.5, .5));
+    Tuning off;
+    off.isOn = false;
+    ASSERT_TRUE(wall.equalizers.tune("monitor.2", off).ok());
+    wall.apply();
+    EXPECT_EQ(wallZoom(wall), fabric::Vec2(.75, .5)) << "as written for what is no monitor now";
+    ASSERT_TRUE(wall.equalizers.tune("monitor.3", off).ok());
+    wall.apply();
+    EXPECT_TRUE(wall.live == wall.written);
+}
+
+TEST(MonitorEqualizer, ReducesAFrameForTheCanvasesThatAreAskedFor) {
+    Balanced wall = wallWithMonitors(kMonitor, kMonitor);
+    wall.canvases = {1};
+    wall.apply();
+    EXPECT_EQ(wallZoom(wall), fabric::Vec2(.5, .125));
+    wall.canvases = {2};
+    wall.apply();
+    EXPECT_EQ(wallZoom(wall), fabric::Vec2(.25, .5));
+    wall.canvases = {0};
+    wall.apply();
+    EXPECT_TRUE(wall.live == wall.written);
+}
+
+TEST(MonitorEqualizer, LeavesWhatOthersTakeAtLeastAsItIsWritten) {
+    Balanced wall = wallWithMonitors(kMonitor, "inputframe { name \"w\" }");
+    wall.apply();
+    EXPECT_EQ(wallZoom(wall), fabric::Vec2(.75, .125));
+}
+
+TEST(MonitorEqualizer, ReducesTheFramesOfBothEyes) {
+    config::Findings findings;
+    Balanced wall(config::readEqc(
+        "server { config { appNode { pipe { window { viewport [ 0 0 640 480 ] channel { name "
+        "\"a\" } } window { viewport [ 0 0 320 240 ] channel { name \"b\" } } } } layout { view { "
+        "mode STEREO } } canvas { layout 0 segment { channel \"a\" } } canvas { layout 0 segment { "
+        "channel \"b\" } } compound { compound { channel ( canvas 0 segment 0 layout 0 view 0 ) "
+        "compound { eye [ LEFT ] outputframe { name \"w\" } } compound { eye [ RIGHT ] outputframe "
+        "{ name \"w\" } } } compound { channel ( canvas 1 segment 0 layout 0 view 0 ) " +
+            kMonitor + " } } } }",
+        findings));
+    ASSERT_FALSE(findings.hasErrors()) << config::describe(findings, "the test's");
+    wall.apply();
+    for (const config::Compound& eye : wall.live.compounds[0].children[0].children)
+        EXPECT_EQ(eye.outputFrames[0].zoom, fabric::Vec2(.5, .5));
+}
+
+/// Input frames that say how large a pixel of the frame is are as large as if theirs was the only
+/// monitor.
+TEST(MonitorEqualizer, KeepsTheSizeOfWhatIsEnlarged) {
+    const std::string enlarged = "monitor_equalizer { } inputframe { name \"w\" zoom [ 2 3 ] }";
+    Balanced wall = wallWithMonitors(enlarged, kMonitor);
+    wall.apply();
+    const auto& children = wall.live.compounds[0].children;
+    EXPECT_EQ(children[1].inputFrames[0].zoom, fabric::Vec2(2, 3. / 4));
+    EXPECT_EQ(children[2].inputFrames[0].zoom, std::nullopt);
+    wall.canvases = {1};
+    wall.apply();
+    EXPECT_EQ(children[1].inputFrames[0].zoom, fabric::Vec2(2, 3));
+}
+
 TEST(Equalizers, ReturnToWhatIsWrittenWhenSwitchedOff) {
     const auto switchedOff = [](const std::string& compounds) {
         Balanced balanced(configurationOf(1, compounds));

@@ -146,17 +146,23 @@ TEST_F(EqualizerPictures, OfDynamicResolutionAreDrawnSmallerAndEnlarged) {
     EXPECT_EQ(test::differentPixels(drawn(seen), drawnHere(seen)), 0U) << "what is to be complete";
 }
 
-/// The monitor has half the wall's pixels each way.
+/// The first monitor has half the wall's pixels each way, the second a quarter: whichever is asked
+/// for gets what it shows.
 TEST_F(EqualizerPictures, OfAMonitorAreThoseOfTheWallReducedWhereTheyBelong) {
     draw(
-        twoPipes(window("left", 160, 120) + window("monitor", 160, 60), window("right", 160, 120),
+        twoPipes(window("left", 160, 120) + window("monitor", 160, 60) + window("small", 80, 30),
+                 window("right", 160, 120),
                  "canvas { layout 0 segment { channel \"left\" viewport [ 0 0 .5 1 ] }\n"
                  "segment { channel \"right\" viewport [ .5 0 .5 1 ] } }\n"
                  "canvas { layout 0 segment { channel \"monitor\" } }\n"
+                 "canvas { layout 0 segment { channel \"small\" } }\n"
                  "compound {\n"
                  "compound { channel ( canvas 0 segment 0 layout 0 view 0 ) outputframe { } }\n"
                  "compound { channel ( canvas 0 segment 1 layout 0 view 0 ) outputframe { } }\n"
                  "compound { channel ( canvas 1 segment 0 layout 0 view 0 ) monitor_equalizer { }\n"
+                 "task [ CLEAR ASSEMBLE ] inputframe { name \"frame.left\" }\n"
+                 "inputframe { name \"frame.right\" } }\n"
+                 "compound { channel ( canvas 2 segment 0 layout 0 view 0 ) monitor_equalizer { }\n"
                  "task [ CLEAR ASSEMBLE ] inputframe { name \"frame.left\" }\n"
                  "inputframe { name \"frame.right\" } } }"));
     FrameRequest seen = view(160, 60);
@@ -173,6 +179,8 @@ TEST_F(EqualizerPictures, OfAMonitorAreThoseOfTheWallReducedWhereTheyBelong) {
     EXPECT_GT(covered, 100U) << "the ball is not in the picture";
     seen.width = 2 * 160;  // as large as the wall now: pixel by pixel
     seen.height = 2 * 60;
+    EXPECT_EQ(test::differentPixels(drawn(seen), wall), 0U);
+    seen.shown = {coordinator::Shown{"2", "", {}, {}}};
     EXPECT_EQ(test::differentPixels(drawn(seen), wall), 0U);
 }
 

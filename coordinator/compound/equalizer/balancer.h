@@ -20,6 +20,15 @@ struct Report {
     double zoom = 1;  ///< pixels of a side for each one that there are without it
 };
 
+/// An output frame that comes to a monitor.
+struct MonitoredFrame {
+    std::size_t source = 0;  ///< the position of the compound that makes it
+    std::size_t output = 0;  ///< of its output frames
+    std::size_t monitor = 0;
+    std::size_t input = 0;  ///< of the monitor's input frames
+    fabric::Vec2 zoom;      ///< the monitor's pixels for each of the source's
+};
+
 /// The configuration of a frame to come, as equalizers change it in turn, those of parents first.
 struct Turn {
     const FrameFacts& facts;
@@ -28,6 +37,7 @@ struct Turn {
     std::vector<config::Compound*> live;  ///< by position as in Work
     /// How much of its channel each compound that draws itself may use, 0 to 1.
     std::vector<double> usage;
+    std::vector<MonitoredFrame> monitored = {};  ///< by the monitors so far
 
     /// Null where the configuration was resolved without it.
     const config::ResolvedCompound* resolved(std::size_t position) const {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/compound/equalizer/monitored_frames.h"
 #include "coordinator/config/named.h"
 #include "fabric/status.h"
 
@@ -99,6 +100,7 @@ void Equalizers::apply(config::Configuration& live, const FrameFacts& facts) {
     for (Entry& entry : entries_)
         if (entry.isOn)
             entry.balancer->apply(turn, entry.settings, entry.isFrozen);
+    zoomMonitoredFrames(turn);
     PlannedFrame frame{facts.frameNumber, {}, facts.isComplete};
     for (const config::Compound& root : live.compounds) addParts(root, false, frame.parts);
     for (std::size_t p = 0; p < frame.parts.size(); ++p)

@@ -35,7 +35,7 @@ struct EqualizerState {
 /// they learn what it took. No threads, no clock: callers take turns, and times come as numbers.
 ///
 /// Changed are viewport and range of the children of a compound with a load, tree or view
-/// equalizer, zoom (DFR), outputtiles and inputtiles (tile), and output frames' zoom (monitor).
+/// equalizer, zoom (DFR), outputtiles and inputtiles (tile), and frames' zoom (monitor).
 /// A framerate equalizer says how often frames may begin. A child without a share gets a viewport
 /// or range of no size.
 class Equalizers {

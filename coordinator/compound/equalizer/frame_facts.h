@@ -19,6 +19,7 @@ struct FrameFacts {
     /// Channels whose renderer is away. They get no share until they are back.
     std::vector<config::ChannelIndex> gone = {};
     bool isComplete = false;  ///< it is to have all that is asked for, whatever time that takes
+    std::vector<std::size_t> canvases = {};  ///< that it is asked for; none: all
 };
 
 /// What the tasks of one compound took in a frame, milliseconds. Not a number, or negative: not

@@ -37,53 +37,48 @@ bool showsTheSame(const Turn& turn, std::size_t a, std::size_t b) {
 }  // namespace
 
 void Monitor::apply(Turn& turn, const config::Equalizer&, bool isFrozen) {
-    const auto own = placeOf(turn, position_);
-    if (!own || isFrozen)
-        return;
-    const config::ResolvedCompound& monitor = *turn.resolved(position_);
-    const std::size_t frames =
-        std::min(monitor.inputFrames.size(), turn.live[position_]->inputFrames.size());
-    for (std::size_t i = 0; i < frames; ++i) {
-        const auto source = sourceOf(turn, monitor.inputFrames[i].name);
-        const auto place = source ? placeOf(turn, source->position) : std::nullopt;
-        if (!place || !showsTheSame(turn, position_, source->position))
-            continue;
-        const fabric::PixelViewport& to = monitor.pixelViewport;
-        const fabric::PixelViewport& from = turn.resolved(source->position)->pixelViewport;
-        const auto zoom = [](double pixels, double share) {
-            return std::clamp(pixels / share, kLeastZoom, kMostZoom);
-        };
-        turn.live[source->position]->outputFrames[source->frame].zoom =
-            fabric::Vec2(zoom(to.width / own->width, from.width / place->width),
-                         zoom(to.height / own->height, from.height / place->height));
-        if (std::ranges::none_of(zoomed_, [&](const Source& each) {
-                return each.position == source->position && each.frame == source->frame;
-            }))
-            zoomed_.push_back(*source);
-    }
+    if (!isFrozen)
+        frames_ = framesOf(turn);
+    turn.monitored.insert(turn.monitored.end(), frames_.begin(), frames_.end());
 }
 
-/// The first of that name in the monitor's tree.
-std::optional<Monitor::Source> Monitor::sourceOf(const Turn& turn, const std::string& name) const {
+std::vector<MonitoredFrame> Monitor::framesOf(const Turn& turn) const {
+    std::vector<MonitoredFrame> found;
+    const auto own = placeOf(turn, position_);
+    if (!own)
+        return found;
+    const config::ResolvedCompound& monitor = *turn.resolved(position_);
+    for (std::size_t i = 0; i < monitor.inputFrames.size(); ++i)
+        for (const Source& source : sourcesOf(turn, monitor.inputFrames[i].name)) {
+            const auto place = placeOf(turn, source.position);
+            if (!place || !showsTheSame(turn, position_, source.position))
+                continue;
+            const fabric::PixelViewport& to = monitor.pixelViewport;
+            const fabric::PixelViewport& from = turn.resolved(source.position)->pixelViewport;
+            const auto zoom = [](double pixels, double share) {
+                return std::clamp(pixels / share, kLeastZoom, kMostZoom);
+            };
+            found.push_back(
+                {source.position, source.frame, position_, i,
+                 fabric::Vec2(zoom(to.width / own->width, from.width / place->width),
+                              zoom(to.height / own->height, from.height / place->height))});
+        }
+    return found;
+}
+
+std::vector<Monitor::Source> Monitor::sourcesOf(const Turn& turn, const std::string& name) const {
     std::size_t root = position_;
     while (root > 0 && turn.resolved(root)->depth > 0) --root;
+    std::vector<Source> sources;
     for (std::size_t p = root; p < turn.work.at(root).end; ++p) {
         const config::ResolvedCompound* const compound = turn.resolved(p);
-        if (compound == nullptr || p == position_)
+        if (compound == nullptr || p == position_ || !meet(*compound, *turn.resolved(position_)))
             continue;
-        const std::size_t frames =
-            std::min(compound->outputFrames.size(), turn.live[p]->outputFrames.size());
-        for (std::size_t i = 0; i < frames; ++i)
+        for (std::size_t i = 0; i < compound->outputFrames.size(); ++i)
             if (compound->outputFrames[i].name == name)
-                return Source{p, i, turn.live[p]->outputFrames[i].zoom};
+                sources.push_back({p, i});
     }
-    return std::nullopt;
-}
-
-void Monitor::switchOff(Turn& turn) {
-    for (const Source& source : zoomed_)
-        turn.live[source.position]->outputFrames[source.frame].zoom = source.written;
-    zoomed_.clear();
+    return sources;
 }
 
 }  // namespace eyrie::equalizer

@@ -18,6 +18,12 @@ void addInPreorder(config::Compound& compound, std::vector<config::Compound*>& c
     for (config::Compound& child : compound.children) addInPreorder(child, compounds);
 }
 
+std::vector<std::optional<fabric::Vec2>> zoomsOf(const std::vector<config::Frame>& frames) {
+    std::vector<std::optional<fabric::Vec2>> zooms;
+    for (const config::Frame& frame : frames) zooms.push_back(frame.zoom);
+    return zooms;
+}
+
 config::Viewport enclosing(const config::Viewport& a, const config::Viewport& b) {
     const double x = std::min(a.x, b.x);
     const double y = std::min(a.y, b.y);
@@ -63,7 +69,12 @@ void Work::add(const config::Compound& compound) {
         add(child);
         draws = draws || compounds_[children.back()].draws;
     }
-    compounds_[position] = {compounds_.size(), std::move(children), draws, drawsItself};
+    compounds_[position] = {compounds_.size(),
+                            std::move(children),
+                            draws,
+                            drawsItself,
+                            zoomsOf(compound.outputFrames),
+                            zoomsOf(compound.inputFrames)};
 }
 
 std::vector<std::size_t> Work::drawingChildren(std::size_t position) const {

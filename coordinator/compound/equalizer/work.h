@@ -37,6 +37,9 @@ public:
         std::vector<std::size_t> children;  ///< positions
         bool draws = false;                 ///< itself, or one below it
         bool drawsItself = false;           ///< without children
+        /// Of its frames, as they are written.
+        std::vector<std::optional<fabric::Vec2>> outputZooms = {};
+        std::vector<std::optional<fabric::Vec2>> inputZooms = {};
     };
     const Compound& at(std::size_t position) const { return compounds_[position]; }
     std::size_t size() const { return compounds_.size(); }
