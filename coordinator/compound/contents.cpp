@@ -207,6 +207,12 @@ std::vector<Gap> Contents::gaps(const PixelViewport& area) const {
     return missing;
 }
 
+bool Contents::hasOnlyPartOfTheData() const {
+    return std::ranges::any_of(all_, [this](const Content& each) {
+        return each.everyNth ? range() != Range{} : !gaps(each.area).empty();
+    });
+}
+
 void Contents::add(const Content& content) {
     if (content.everyNth) {
         const auto isSame = [&](const Content& each) {

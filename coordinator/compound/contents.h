@@ -43,6 +43,10 @@ public:
     /// finding out takes long.
     std::vector<Gap> gaps(const fabric::PixelViewport& area) const;
 
+    /// Whether somewhere some of the data is there and some is not. False, too, where finding out
+    /// takes long.
+    bool hasOnlyPartOfTheData() const;
+
     /// When all shares of a rectangle's columns and rows are there, they count as the rectangle.
     void add(const Content& content);
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "coordinator/compound/gaps.h"
+#include "coordinator/compound/lost_depth.h"
 #include "coordinator/compound/needs.h"
 #include "coordinator/compound/pictures.h"
 #include "coordinator/compound/seen_areas.h"
@@ -193,8 +194,10 @@ std::optional<Plan> makePlan(const config::Configuration& configuration, const P
     StepList steps = stepsOf(shown, inOrder(shown, list), list);
     if (hasAny(refusals))
         return std::nullopt;
-    if (request.looksForGaps)
+    if (request.looksForGaps) {
         warnOfGaps(shown, list, plan.pictures, steps.contents, plan.gaps);
+        plan.lostDepth = lostDepth(shown, list, steps.frames);
+    }
     plan.steps = std::move(steps.steps);
     plan.frames = list.frames.size();
     plan.draws = std::move(list.draws);

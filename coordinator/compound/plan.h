@@ -165,6 +165,14 @@ struct Picture {
     config::ColourMask rightMask{false, true, true};
 };
 
+/// A frame without depth that has a part of the data only: it comes over all that others have
+/// drawn, also over what is nearer.
+struct LostDepth {
+    const config::Compound* compound = nullptr;  ///< of the configuration, that makes it
+    /// One of its output frames; null: what it draws in other pixels than the compound above it.
+    const config::Frame* frame = nullptr;
+};
+
 struct Plan {
     std::vector<PlannedDraw> draws;
     std::vector<Framebuffer> framebuffers;
@@ -178,6 +186,8 @@ struct Plan {
     std::size_t blind = 0;
     /// Of PlanRequest::looksForGaps: warnings of parts of pictures that nobody draws.
     config::Findings gaps;
+    /// Of PlanRequest::looksForGaps.
+    std::vector<LostDepth> lostDepth;
 };
 
 /// What is on display when that is asked for: what the request says, in the sizes of its outputs,

@@ -2,11 +2,14 @@
 #include "coordinator/compound/plan_check.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "coordinator/compound/equalizer/equalizers.h"
 #include "coordinator/compound/plan.h"
@@ -36,62 +39,92 @@ config::Configuration balanced(const config::Configuration& written) {
     return live;
 }
 
+/// Sees the plan, or why there is none, of each canvas in each of its layouts and in each frame.
+void eachPlan(const config::Configuration& live,
+              const std::function<void(const std::optional<Plan>&, const Refusals&)>& see) {
+    PlanRequest request;
+    request.looksForGaps = true;
+    request.display.canvases.resize(live.canvases.size());
+    const std::int64_t frames = framesOf(live.compounds, 1);
+    const auto eachFrame = [&] {
+        for (std::int64_t frame = 0; frame < frames; ++frame) {
+            request.frameNumber = static_cast<std::uint64_t>(frame);
+            Refusals refusals;
+            const std::optional<Plan> plan = makePlan(live, request, refusals);
+            see(plan, refusals);
+        }
+    };
+    for (std::size_t i = 0; i < live.canvases.size(); ++i)
+        request.outputs.emplace_back().canvas = i;
+    eachFrame();
+    for (std::size_t i = 0; i < live.canvases.size(); ++i)
+        for (std::size_t layout = 1; layout < live.canvases[i].layouts.size(); ++layout) {
+            request.outputs.assign(1, {});
+            request.outputs.front().canvas = i;
+            request.display.canvases[i].layout = layout;
+            eachFrame();
+            request.display.canvases[i].layout = 0;
+        }
+}
+
+const config::Place& placeOf(const LostDepth& lost) {
+    return lost.frame != nullptr ? lost.frame->place : lost.compound->place;
+}
+
 class Checker {
 public:
-    Checker(const config::Configuration& configuration, config::Findings& findings)
-        : configuration_(configuration),
-          live_(balanced(configuration)),
-          findings_(findings),
-          frames_(framesOf(configuration.compounds, 1)) {}
+    explicit Checker(config::Findings& findings) : findings_(findings) {}
 
-    void check() {
-        PlanRequest request;
-        request.looksForGaps = true;
-        request.display.canvases.resize(configuration_.canvases.size());
-        for (std::size_t i = 0; i < configuration_.canvases.size(); ++i)
-            request.outputs.emplace_back().canvas = i;
-        plan(request);
-        for (std::size_t i = 0; i < configuration_.canvases.size(); ++i)
-            for (std::size_t layout = 1; layout < configuration_.canvases[i].layouts.size();
-                 ++layout) {
-                request.outputs.assign(1, {});
-                request.outputs.front().canvas = i;
-                request.display.canvases[i].layout = layout;
-                plan(request);
-                request.display.canvases[i].layout = 0;
-            }
+    void see(const std::optional<Plan>& plan, const Refusals& refusals) {
+        for (const config::Finding& each : refusals.impossible.all())
+            if (isNew(each.place, each.message))
+                findings_.error(each.place, each.message);
+        for (const config::Finding& each : refusals.tooLarge.all()) warn(each.place, each.message);
+        if (!plan)
+            return;
+        for (const LostDepth& each : plan->lostDepth)
+            warn(placeOf(each),
+                 fmt::format("{} has a part of the data and no DEPTH, so it covers what is nearer; "
+                             "buffer [ COLOR DEPTH ] compares them",
+                             each.frame != nullptr
+                                 ? "the outputframe"
+                                 : "what the compound draws in pixels of its own"));
+        for (const config::Finding& each : plan->gaps.all()) warn(each.place, each.message);
     }
 
 private:
-    void plan(PlanRequest& request) {
-        for (std::int64_t frame = 0; frame < frames_; ++frame) {
-            request.frameNumber = static_cast<std::uint64_t>(frame);
-            Refusals refusals;
-            const std::optional<Plan> plan = makePlan(live_, request, refusals);
-            for (const config::Finding& each : refusals.impossible.all())
-                if (isNew(each))
-                    findings_.error(each.place, each.message);
-            for (const config::Finding& each : refusals.tooLarge.all()) warn(each);
-            if (plan)
-                for (const config::Finding& each : plan->gaps.all()) warn(each);
-        }
+    void warn(const config::Place& place, const std::string& message) {
+        if (isNew(place, message))
+            findings_.warning(place, message);
     }
 
-    void warn(const config::Finding& finding) {
-        if (isNew(finding))
-            findings_.warning(finding.place, finding.message);
+    bool isNew(const config::Place& place, const std::string& message) {
+        return said_.insert({describe(place), message}).second;
     }
 
-    bool isNew(const config::Finding& finding) {
-        return said_.insert({describe(finding.place), finding.message}).second;
-    }
-
-    const config::Configuration& configuration_;
-    config::Configuration live_;
     config::Findings& findings_;
-    std::int64_t frames_;
     std::set<std::pair<std::string, std::string>> said_;
 };
+
+bool isWithin(const config::Compound& tree, const config::Compound* compound) {
+    return &tree == compound ||
+           std::ranges::any_of(tree.children, [&](const config::Compound& child) {
+               return isWithin(child, compound);
+           });
+}
+
+/// With its compound's name, and where it is written.
+std::string described(const LostDepth& lost) {
+    const std::string frame = lost.frame == nullptr ? "what is drawn in pixels of its own"
+                              : lost.frame->name.empty()
+                                  ? "the outputframe"
+                                  : "the outputframe \"" + lost.frame->name + "\"";
+    const std::string& name = lost.compound->name;
+    const std::string place = describe(placeOf(lost));
+    return fmt::format("{}{}{}", frame,
+                       name.empty() ? "" : fmt::format(" of compound \"{}\"", name),
+                       place.empty() ? "" : " at " + place);
+}
 
 }  // namespace
 
@@ -100,7 +133,37 @@ void checkPlans(const config::Configuration& configuration, config::Findings& fi
         return findings.warning({},
                                 "there is no canvas, so nothing is shown; give it one, with a "
                                 "segment and a layout of a view");
-    Checker(configuration, findings).check();
+    Checker checker(findings);
+    eachPlan(balanced(configuration),
+             [&](const std::optional<Plan>& plan, const Refusals& refusals) {
+                 checker.see(plan, refusals);
+             });
+}
+
+absl::Status checkDivision(const config::Configuration& written,
+                           const config::ConfigurationState& state, std::size_t equalizer) {
+    const config::Configuration set = config::applied(written, state);
+    if (!dividesData(*equalizersOf(set)[equalizer].equalizer) ||
+        dividesData(*equalizersOf(written)[equalizer].equalizer))
+        return absl::OkStatus();
+    const config::Configuration live = balanced(set);
+    const config::Compound& divided = *equalizersOf(live)[equalizer].compound;
+    std::optional<std::string> lost;
+    eachPlan(live, [&](const std::optional<Plan>& plan, const Refusals&) {
+        if (!plan || lost)
+            return;
+        for (const LostDepth& each : plan->lostDepth)
+            if (isWithin(divided, each.compound)) {
+                lost = described(each);
+                return;
+            }
+    });
+    if (!lost)
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        fmt::format("equalizer {}: it cannot divide data: {} has no DEPTH, so it would cover what "
+                    "is nearer; write buffer [ COLOR DEPTH ] there",
+                    equalizer, *lost));
 }
 
 }  // namespace eyrie::compound

@@ -40,7 +40,7 @@ public:
         }
     }
 
-    StepList take() { return {std::move(steps_), std::move(contents_)}; }
+    StepList take() { return {std::move(steps_), std::move(contents_), std::move(frames_)}; }
 
 private:
     void clear(const Work& work) {

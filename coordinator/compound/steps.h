@@ -11,6 +11,7 @@ namespace eyrie::compound {
 struct StepList {
     std::vector<Step> steps;
     std::vector<Contents> contents;  ///< of the framebuffers, after all steps
+    std::vector<Contents> frames;    ///< of the output frames
 };
 
 /// Works as steps on framebuffers: what comes over what, in which order, and by depth or not.

@@ -326,11 +326,12 @@ private:
         named.frames.push_back(list_.frames.size());
         const bool hasDepth =
             frame.frame->buffers.value_or(resolved_.compounds[index].buffers).depth;
-        addReadBack(index, {framebuffer, part, zoomOf(frame.frame->zoom, part), hasDepth});
+        addReadBack(
+            {framebuffer, part, zoomOf(frame.frame->zoom, part), hasDepth, index, frame.frame});
     }
 
-    void addReadBack(std::size_t compound, const OutputFrame& frame) {
-        add(Work::Kind::ReadBack, compound, frame.framebuffer, frame.part).frame =
+    void addReadBack(const OutputFrame& frame) {
+        add(Work::Kind::ReadBack, frame.compound, frame.framebuffer, frame.part).frame =
             list_.frames.size();
         list_.frames.push_back(frame);
     }
@@ -348,7 +349,7 @@ private:
                 continue;
             if (*level->framebuffer == framebuffer)
                 return;
-            addReadBack(index, {framebuffer, area, std::nullopt, own.buffers.depth});
+            addReadBack({framebuffer, area, std::nullopt, own.buffers.depth, index});
             level->given.push_back({frame});
             return;
         }
@@ -358,7 +359,7 @@ private:
         const std::size_t picture = list_.pictureOf(resolved_, *own.destination, pass_);
         if (picture == framebuffer)
             return;
-        addReadBack(index, {framebuffer, area, std::nullopt, own.buffers.depth});
+        addReadBack({framebuffer, area, std::nullopt, own.buffers.depth, index});
         add(Work::Kind::Assemble, index, picture, destination.partOfPanorama).inputs = {
             Input{frame}};
     }

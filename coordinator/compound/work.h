@@ -45,7 +45,9 @@ struct OutputFrame {
     std::size_t framebuffer = 0;
     fabric::PixelViewport part;
     std::optional<fabric::Regridding> zoom;
-    bool hasDepth = false;  ///< to be composited by depth
+    bool hasDepth = false;                   ///< to be composited by depth
+    std::size_t compound = 0;                ///< that makes it, in ResolvedConfiguration::compounds
+    const config::Frame* written = nullptr;  ///< null: given to a compound above, without a name
 };
 
 /// What an input frame says of where it comes; others come to where they were made.

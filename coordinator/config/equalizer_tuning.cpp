@@ -89,6 +89,11 @@ absl::StatusOr<Equalizer> tuned(Equalizer settings, const EqualizerTuning& tunin
     return settings;
 }
 
+bool dividesData(const Equalizer& equalizer) {
+    return equalizer.kind == EqualizerKind::Tile ? equalizer.tileChunk.has_value()
+                                                 : equalizer.mode == SplitMode::Db;
+}
+
 EqualizerTuning together(EqualizerTuning first, const EqualizerTuning& then) {
     take(then.isOn, first.isOn);
     take(then.isFrozen, first.isFrozen);

@@ -34,4 +34,7 @@ absl::StatusOr<Equalizer> tuned(Equalizer settings, const EqualizerTuning& tunin
 /// Both, one after the other.
 EqualizerTuning together(EqualizerTuning first, const EqualizerTuning& then);
 
+/// Whether it leaves its compound's children parts of the data while frames are drawn.
+bool dividesData(const Equalizer& equalizer);
+
 }  // namespace eyrie::config

@@ -10,7 +10,6 @@
 
 #include "coordinator/config/destinations.h"
 #include "coordinator/config/idle_equalizers.h"
-#include "coordinator/config/lost_depth.h"
 #include "coordinator/config/phases.h"
 #include "coordinator/config/pixels.h"
 #include "coordinator/config/queue_names.h"
@@ -82,7 +81,6 @@ public:
                 matchFrames(tree);
             warnOfUnshown(tree, findings_);
             warnOfQueueNames(tree, findings_);
-            warnOfLostDepth(tree, findings_);
             warnOfTornPictures(tree, findings_);
             warnOfIdleEqualizers(tree, findings_);
         }

@@ -3,15 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "coordinator/config/lost_depth.h"
 #include "coordinator/config/named.h"
-#include "coordinator/config/resolved.h"
 #include "coordinator/config/section_readers.h"
 #include "coordinator/config/statement_list.h"
 #include "fabric/status.h"
@@ -66,30 +63,6 @@ void tune(Equalizer& equalizer, const EqualizerTuning& tuning, Compound& compoun
     equalizer = tuned(equalizer, tuning).value_or(equalizer);
     if (dividesData(equalizer) && !dividedData)
         compound.buffers = Buffers{true, true};
-}
-
-/// Of an equalizer that divides data: frames below it that say themselves that they have no DEPTH
-/// would cover what is nearer.
-absl::Status checkDepth(const Configuration& configuration, std::size_t equalizer) {
-    Findings findings;
-    const ResolvedConfiguration resolved = resolve(configuration, findings);
-    const Compound* const divided = equalizersOf(configuration)[equalizer].compound;
-    const auto compound =
-        std::ranges::find(resolved.compounds, divided, &ResolvedCompound::compound);
-    const auto end =
-        std::find_if(std::next(compound), resolved.compounds.end(),
-                     [&](const ResolvedCompound& each) { return each.depth <= compound->depth; });
-    const std::vector<LostDepth> lost = lostDepth({compound, end});
-    if (findings.hasErrors() || lost.empty())
-        return absl::OkStatus();
-    const LostDepth& first = lost.front();
-    const std::string& name = first.compound->compound->name;
-    const std::string place = describe(first.frame->frame->place);
-    return absl::InvalidArgumentError(fmt::format(
-        "it cannot divide data: the outputframe \"{}\"{}{} has no DEPTH, so it would cover what "
-        "is nearer; write buffer [ COLOR DEPTH ] there",
-        first.frame->name, name.empty() ? "" : fmt::format(" of compound \"{}\"", name),
-        place.empty() ? "" : " at " + place));
 }
 
 void tuneAll(Compound& compound, const ConfigurationState& state, std::size_t& next) {
@@ -155,16 +128,9 @@ absl::Status tuneEqualizer(const Configuration& configuration, ConfigurationStat
         return absl::NotFoundError(
             fmt::format("there is no equalizer {}; there are {}", equalizer, all.size()));
     const EqualizerTuning changed = together(state.equalizers[equalizer], tuning);
-    const std::string context = fmt::format("equalizer {}", equalizer);
-    const absl::StatusOr<Equalizer> settings = tuned(*all[equalizer].equalizer, changed);
-    if (!settings.ok())
-        return fabric::withContext(settings.status(), context);
-    ConfigurationState next = state;
-    next.equalizers[equalizer] = changed;
-    if (dividesData(*settings) && !dividesData(*all[equalizer].equalizer))
-        RETURN_IF_ERROR(
-            fabric::withContext(checkDepth(applied(configuration, next), equalizer), context));
-    state = std::move(next);
+    RETURN_IF_ERROR(fabric::withContext(tuned(*all[equalizer].equalizer, changed).status(),
+                                        fmt::format("equalizer {}", equalizer)));
+    state.equalizers[equalizer] = changed;
     return absl::OkStatus();
 }
 

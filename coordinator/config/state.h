@@ -62,8 +62,7 @@ absl::Status setHead(const Configuration& configuration, ConfigurationState& sta
                      std::string_view observer, const fabric::Mat4& roomFromHead);
 
 /// Of the equalizers, from 0 on. Settings are limited as those of a file, and must be such as its
-/// kind has; those that were changed before stay as they are. Data is divided only where all that
-/// have a part of it send depths.
+/// kind has; those that were changed before stay as they are.
 absl::Status tuneEqualizer(const Configuration& configuration, ConfigurationState& state,
                            std::size_t equalizer, const EqualizerTuning& tuning);
 

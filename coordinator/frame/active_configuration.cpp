@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "coordinator/compound/plan_check.h"
 #include "coordinator/config/findings.h"
 #include "coordinator/config/named.h"
 #include "coordinator/config/one_channel.h"
@@ -137,6 +138,9 @@ ActiveConfiguration::Balance& ActiveConfiguration::balanceOf(std::uint64_t sessi
 }
 
 absl::Status ActiveConfiguration::become(config::ConfigurationState state) {
+    for (std::size_t i = 0; i < state.equalizers.size(); ++i)
+        if (state.equalizers[i] != state_.equalizers[i])
+            RETURN_IF_ERROR(compound::checkDivision(written_, state, i));
     config::ConfigurationState before = state_;
     if (absl::Status shown = show(std::move(state)); !shown.ok()) {
         (void)show(std::move(before));

@@ -4,10 +4,24 @@
 #include <cstddef>
 #include <utility>
 
+#include "coordinator/compound/plan_check.h"
 #include "coordinator/config/named.h"
 #include "coordinator/frame/active_configuration.h"
+#include "fabric/status.h"
 
 namespace eyrie::coordinator {
+namespace {
+
+absl::Status tune(const config::Configuration& written, config::ConfigurationState& state,
+                  std::size_t equalizer, const config::EqualizerTuning& tuning) {
+    config::ConfigurationState tuned = state;
+    RETURN_IF_ERROR(config::tuneEqualizer(written, tuned, equalizer, tuning));
+    RETURN_IF_ERROR(compound::checkDivision(written, tuned, equalizer));
+    state = std::move(tuned);
+    return absl::OkStatus();
+}
+
+}  // namespace
 
 void KeptSettings::keep(const ActiveConfiguration& active) {
     const config::Configuration& written = active.written();
@@ -37,7 +51,7 @@ std::vector<absl::Status> KeptSettings::restore(ActiveConfiguration& active) con
     };
     for (const auto& [name, tuning] : equalizers) {
         const absl::StatusOr<std::size_t> found = config::findNamed(named, "equalizer", name);
-        note(found.ok() ? config::tuneEqualizer(written, state, *found, tuning) : found.status());
+        note(found.ok() ? tune(written, state, *found, tuning) : found.status());
     }
     for (const auto& [name, head] : heads) note(config::setHead(written, state, name, head));
     for (const auto& [name, settings] : observers)

@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 
 #include "coordinator/config/eqc_reader.h"
+#include "coordinator/frame/kept_settings.h"
 
 namespace eyrie::coordinator {
 namespace {
@@ -231,6 +232,27 @@ std::vector<fabric::Sight> sightsOf(ActiveConfiguration& active) {
         for (const compound::PlannedDraw& draw : plan->draws)
             sights.push_back(draw.task.sight.value_or(fabric::Sight{}));
     return sights;
+}
+
+/// Whoever asks for it, and however.
+TEST(ActiveConfiguration, DividesNoDataWhoseDepthsNobodySends) {
+    ActiveConfiguration active(read(
+        "config { appNode { pipe { window { channel { name \"a\" } channel { name \"b\" } } } } "
+        "layout { view {} } canvas { layout 0 segment { channel \"a\" } } compound { channel ( "
+        "segment 0 view 0 ) load_equalizer {} compound {} compound { channel \"b\" "
+        "outputframe { name \"f\" buffer [ COLOR ] } } inputframe { name \"f\" } } }"));
+    const config::ConfigurationState before = active.state();
+    equalizer::Tuning tuning;
+    tuning.mode = config::SplitMode::Db;
+    EXPECT_THAT(std::string(active.tune("0", tuning).message()),
+                HasSubstr("the outputframe \"f\" at 1:"));
+    config::ConfigurationState wanted = before;
+    wanted.equalizers.at(0) = tuning;
+    EXPECT_TRUE(absl::IsInvalidArgument(active.become(wanted)));
+    KeptSettings kept;
+    kept.equalizers["0"] = tuning;
+    EXPECT_EQ(kept.restore(active).size(), 1U);
+    EXPECT_EQ(active.state(), before);
 }
 
 TEST(ActiveConfiguration, ShowsWhatAnObserverSeesWithOtherEyesAndAnotherFocus) {

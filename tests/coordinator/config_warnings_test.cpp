@@ -337,29 +337,6 @@ TEST(EqcWarnings, SayWhichCompoundsHaveNoneOfTheEyesAboveThem) {
     EXPECT_EQ(found("MONO", "compound {}\ncompound { eye [ LEFT ] }"), "");
 }
 
-TEST(EqcWarnings, SayWherePartsOfTheDataComeWithoutDepth) {
-    const auto found = [](const std::string& above, const std::string& part,
-                          const std::string& frame) {
-        return describe(Read(withCompounds("compound { channel ( segment 0 view 0 ) " + above +
-                                           " compound {} compound { channel \"b\" " + part +
-                                           "\noutputframe { name \"f\" " + frame +
-                                           " } } inputframe { name \"f\" } }"))
-                            .findings,
-                        "f");
-    };
-    const std::string noDepth =
-        "f:2:1: warning: the outputframe has a part of the data and no DEPTH, so it covers what is "
-        "nearer; buffer [ COLOR DEPTH ] compares them\n";
-    EXPECT_EQ(found("", "range [ .5 1 ]", ""), noDepth);
-    EXPECT_EQ(found("buffer [ COLOR DEPTH ]", "range [ .5 1 ]", "buffer [ COLOR ]"), noDepth);
-    EXPECT_EQ(found("load_equalizer { mode DB }", "", ""), noDepth);
-    EXPECT_EQ(found("tile_equalizer { size .1 }", "", ""), noDepth);
-    EXPECT_EQ(found("buffer [ COLOR DEPTH ] load_equalizer { mode DB }", "", ""), "");
-    EXPECT_EQ(found("load_equalizer { mode 2D }", "", ""), "");
-    EXPECT_EQ(found("tile_equalizer {}", "", ""), "");
-    EXPECT_EQ(found("", "range [ .5 1 ]", "buffer [ COLOR DEPTH ]"), "");
-}
-
 TEST(EqcWarnings, NameBothPlacesOfANameThatTwoThingsHave) {
     const Read read(
         "config {\n node { name \"n\" pipe { name \"p\" window { channel { name \"c\" }\n"

@@ -178,41 +178,6 @@ TEST(ConfigurationState, TunesEqualizersAsFarAsAFileMay) {
     EXPECT_EQ(state, before);
 }
 
-TEST(ConfigurationState, DividesNoDataWhoseDepthsNobodySends) {
-    const auto divided = [](std::string_view equalizer, std::string_view child,
-                            std::string_view frame, const EqualizerTuning& settings) {
-        Findings findings;
-        const Configuration written = readEqc(
-            fmt::format(
-                "config {{ appNode {{ pipe {{ window {{ channel {{ name \"a\" }} channel {{ "
-                "name \"b\" }} }} }} }} layout {{ view {{ }} }} canvas {{ layout 0 segment "
-                "{{ channel \"a\" }} }}\ncompound {{ channel ( segment 0 view 0 ) {} "
-                "compound {{ }}\ncompound {{ name \"helper\" channel \"b\" {}\noutputframe {{ "
-                "name \"f\" {} }} }} inputframe {{ name \"f\" }} }} }}",
-                equalizer, child, frame),
-            findings);
-        EXPECT_FALSE(findings.hasErrors()) << describe(findings, "f");
-        ConfigurationState state = initialState(written);
-        const ConfigurationState before = state;
-        const absl::Status status = tuneEqualizer(written, state, 0, settings);
-        EXPECT_EQ(state == before, !status.ok());
-        return messageOf(status);
-    };
-    EqualizerTuning db;
-    db.mode = SplitMode::Db;
-    EqualizerTuning chunks;
-    chunks.tileChunk = .1;
-    const std::string refused =
-        "equalizer 0: it cannot divide data: the outputframe \"f\" of compound \"helper\" at 4:1 "
-        "has "
-        "no DEPTH, so it would cover what is nearer; write buffer [ COLOR DEPTH ] there";
-    EXPECT_EQ(divided("load_equalizer { }", "", "buffer [ COLOR ]", db), refused);
-    EXPECT_EQ(divided("tree_equalizer { }", "buffer [ COLOR ]", "", db), refused);
-    EXPECT_EQ(divided("tile_equalizer { }", "buffer [ COLOR ]", "", chunks), refused);
-    EXPECT_EQ(divided("load_equalizer { }", "", "", db), "");
-    EXPECT_EQ(divided("load_equalizer { }", "buffer [ COLOR ]", "buffer [ COLOR DEPTH ]", db), "");
-}
-
 TEST(ConfigurationState, MovesHeadsRigidlyOnly) {
     const Configuration made = defaultConfiguration(renderers(1));
     ConfigurationState state = initialState(made);

@@ -192,6 +192,8 @@ TEST(PlanCheck, WarnsOfDataThatAStripWithoutDepthCovers) {
     };
     EXPECT_EQ(strip("inputframe { name \"own\" }"), "");
     EXPECT_EQ(strip(""),
+              "f:5:1: warning: the outputframe has a part of the data and no DEPTH, so it covers "
+              "what is nearer; buffer [ COLOR DEPTH ] compares them\n"
               "f:2:1: warning: nothing draws 12.5 % of what is shown, in viewport [ 0 0 0.25 1 ], "
               "in range [ 0 0.5 ]: it is background\n");
 }
@@ -312,6 +314,100 @@ TEST(PlanCheck, WarnsOfGapsBesideAnEqualizerOfOtherParts) {
                                     "view \"v\" ) compound { viewport [ 0 0 .9 1 ] } } }")),
               "f:2:30: warning: nothing draws 10 % of what is shown, in viewport [ 0.9 0 0.1 1 ]: "
               "it is background\n");
+}
+
+TEST(PlanCheck, WarnsOfPartsOfTheDataThatComeWithoutDepth) {
+    const auto found = [](std::string_view above, std::string_view first, std::string_view second,
+                          std::string_view frame) {
+        return foundIn(withCompounds(
+            fmt::format("compound {{ channel ( segment 0 view \"v\" ) {} compound {{ {} }}\n"
+                        "compound {{ channel \"b\" {}\noutputframe {{ name \"f\" {} }} }} "
+                        "inputframe {{ name \"f\" }} }}",
+                        above, first, second, frame)));
+    };
+    const std::string noDepth =
+        "f:4:1: warning: the outputframe has a part of the data and no DEPTH, so it covers what is "
+        "nearer; buffer [ COLOR DEPTH ] compares them\n";
+    const std::string covered =
+        "f:2:1: warning: nothing draws 50 % of what is shown, in range [ 0 0.5 ]: it is "
+        "background\n";
+    const char* const a = "range [ 0 .5 ]";
+    const char* const b = "range [ .5 1 ]";
+    EXPECT_EQ(found("", a, b, ""), noDepth + covered);
+    EXPECT_EQ(found("buffer [ COLOR DEPTH ]", a, b, "buffer [ COLOR ]"), noDepth + covered);
+    EXPECT_EQ(found("load_equalizer { mode DB }", "", "", ""), noDepth + covered);
+    EXPECT_EQ(found("tile_equalizer { size .1 }", "", "", ""), noDepth + covered);
+    EXPECT_EQ(found("buffer [ COLOR DEPTH ] load_equalizer { mode DB }", "", "", ""), "");
+    EXPECT_EQ(found("load_equalizer { mode 2D }", "", "", ""), "");
+    EXPECT_EQ(found("tile_equalizer {}", "", "", ""), "");
+    EXPECT_EQ(found("", a, b, "buffer [ COLOR DEPTH ]"), "");
+    EXPECT_EQ(foundIn(withCompounds("compound { channel ( segment 0 view \"v\" ) compound { range "
+                                    "[ 0 .5 ] }\ncompound { zoom [ .5 .5 ] range [ .5 1 ] } }")),
+              "f:3:1: warning: what the compound draws in pixels of its own has a part of the data "
+              "and no DEPTH, so it covers what is nearer; buffer [ COLOR DEPTH ] compares them\n");
+}
+
+/// Two that draw halves of the data, each of the whole picture, and send each other a half of that:
+/// then "b" has all of the data in its upper half, whose depth nobody needs.
+std::string directSend(std::string_view above, std::string_view first, std::string_view second,
+                       std::string_view viewport) {
+    return withCompounds(fmt::format(
+        "compound {{ channel ( segment 0 view \"v\" ) buffer [ COLOR DEPTH ] {}\n"
+        "compound {{ {} channel \"b\" compound {{ outputframe {{ name \"low\" viewport [ 0 0 1 .5 "
+        "] }} }} inputframe {{ name \"high\" }}\n"
+        "outputframe {{ name \"done\" buffer [ COLOR ] viewport [ {} ] }} }}\n"
+        "compound {{ {} compound {{ outputframe {{ name \"high\" viewport [ 0 .5 1 .5 ] }} }} }}\n"
+        "inputframe {{ name \"low\" }} inputframe {{ name \"done\" }} }}",
+        above, first, viewport, second));
+}
+
+TEST(PlanCheck, HasNothingToSayOfFramesWithoutDepthThatHaveAllOfTheData) {
+    EXPECT_EQ(foundIn(directSend("", "range [ 0 .5 ]", "range [ .5 1 ]", "0 .5 1 .5")), "");
+    EXPECT_EQ(foundIn(directSend("load_equalizer { mode DB }", "", "", "0 .5 1 .5")), "");
+    for (const char* tooMuch : {"0 0 1 1", "0 .4 1 .6"})
+        EXPECT_THAT(foundIn(directSend("", "range [ 0 .5 ]", "range [ .5 1 ]", tooMuch)),
+                    testing::StartsWith("f:4:1: warning: the outputframe has a part of the data "
+                                        "and no DEPTH"));
+}
+
+/// What is said where the first equalizer is to be so.
+std::string refusal(const std::string& text, const config::EqualizerTuning& tuning) {
+    config::Findings findings;
+    const config::Configuration written = config::readEqc(text, findings);
+    EXPECT_FALSE(findings.hasErrors()) << describe(findings, "f");
+    config::ConfigurationState state = initialState(written);
+    EXPECT_TRUE(tuneEqualizer(written, state, 0, tuning).ok());
+    return std::string(checkDivision(written, state, 0).message());
+}
+
+TEST(DivisionCheck, DividesNoDataWhoseDepthsNobodySends) {
+    const auto divided = [](std::string_view equalizer, std::string_view child,
+                            std::string_view frame, const config::EqualizerTuning& tuning) {
+        return refusal(
+            withCompounds(fmt::format(
+                "compound {{ channel ( segment 0 view \"v\" ) {} compound {{ }}\n"
+                "compound {{ name \"helper\" channel \"b\" {}\noutputframe {{ name \"f\" {} }} }} "
+                "inputframe {{ name \"f\" }} }}",
+                equalizer, child, frame)),
+            tuning);
+    };
+    config::EqualizerTuning db;
+    db.mode = config::SplitMode::Db;
+    config::EqualizerTuning chunks;
+    chunks.tileChunk = .1;
+    const std::string refused =
+        "equalizer 0: it cannot divide data: the outputframe \"f\" of compound \"helper\" at 4:1 "
+        "has no DEPTH, so it would cover what is nearer; write buffer [ COLOR DEPTH ] there";
+    EXPECT_EQ(divided("load_equalizer { }", "", "buffer [ COLOR ]", db), refused);
+    EXPECT_EQ(divided("tree_equalizer { }", "buffer [ COLOR ]", "", db), refused);
+    EXPECT_EQ(divided("tile_equalizer { }", "buffer [ COLOR ]", "", chunks), refused);
+    EXPECT_EQ(divided("load_equalizer { }", "", "", db), "");
+    EXPECT_EQ(divided("load_equalizer { }", "buffer [ COLOR ]", "buffer [ COLOR DEPTH ]", db), "");
+    EXPECT_EQ(divided("load_equalizer { mode DB }", "", "buffer [ COLOR ]", db), "")
+        << "it does so as it is written";
+    EXPECT_EQ(refusal(directSend("load_equalizer { }", "", "", "0 .5 1 .5"), db), "");
+    EXPECT_THAT(refusal(directSend("load_equalizer { }", "", "", "0 0 1 1"), db),
+                HasSubstr("cannot divide data"));
 }
 
 TEST(PlanCheck, WarnsOfAConfigurationThatShowsNothing) {
