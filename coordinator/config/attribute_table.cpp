@@ -306,7 +306,7 @@ void read(const Statement& statement, const Known& known, ValueReader& reader,
     if (before == attributes.end()) {
         attributes.push_back(std::move(attribute));
     } else {
-        reader.givenAgain(statement);
+        reader.givenAgain(statement, statement.keyword);
         *before = std::move(attribute);
     }
 }

@@ -244,11 +244,14 @@ public:
              {"subpixel",
               [&](const auto& each) { readSubPixel(each, reader_, compound.subpixel); }},
              {"zoom", [&](const auto& each) { readZoom(each, reader_, compound.zoom); }},
-             {"wall", [&](const auto& each) { compound.surface = readWall(each, reader_); }},
+             {"wall", [&](const auto& each) { compound.surface = readWall(each, reader_); }, false,
+              "wall"},
              {"projection",
-              [&](const auto& each) { compound.surface = readProjection(each, reader_); }},
+              [&](const auto& each) { compound.surface = readProjection(each, reader_); }, false,
+              "wall"},
              {"swapbarrier",
-              [&](const auto& each) { compound.swapBarrier = readSwapBarrier(each, reader_); }},
+              [&](const auto& each) { compound.swapBarrier = readSwapBarrier(each, reader_); },
+              false, "swapbarrier"},
              {"outputframe",
               [&](const auto& each) {
                   compound.outputFrames.push_back(readFrame(each, "an outputframe", reader_));

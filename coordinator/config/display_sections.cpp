@@ -33,8 +33,9 @@ View readView(const Statement& block, const Configuration& before, ValueReader& 
               reader.choice<bool>(each, {{"MONO", false}, {"STEREO", true}}, view.isStereo);
           }},
          {"viewport", [&](const auto& each) { reader.fraction(each, view.viewport); }},
-         {"wall", [&](const auto& each) { view.surface = readWall(each, reader); }},
-         {"projection", [&](const auto& each) { view.surface = readProjection(each, reader); }},
+         {"wall", [&](const auto& each) { view.surface = readWall(each, reader); }, false, "wall"},
+         {"projection", [&](const auto& each) { view.surface = readProjection(each, reader); },
+          false, "wall"},
          {"observer",
           [&](const auto& each) {
               view.observer = reader.reference(each, before.observers, "observer");
@@ -65,10 +66,13 @@ Segment readSegment(const Statement& block, const Configuration& before, ValueRe
                                   {"LEFT", &segment.eyes.left},
                                   {"RIGHT", &segment.eyes.right}});
           }},
-         {"wall", [&](const auto& each) { segment.surface = readWall(each, reader); }},
-         {"projection", [&](const auto& each) { segment.surface = readProjection(each, reader); }},
+         {"wall", [&](const auto& each) { segment.surface = readWall(each, reader); }, false,
+          "wall"},
+         {"projection", [&](const auto& each) { segment.surface = readProjection(each, reader); },
+          false, "wall"},
          {"swapbarrier",
-          [&](const auto& each) { segment.swapBarrier = readSwapBarrier(each, reader); }}});
+          [&](const auto& each) { segment.swapBarrier = readSwapBarrier(each, reader); }, false,
+          "swapbarrier"}});
     return segment;
 }
 
@@ -189,6 +193,11 @@ Layout readLayout(const Statement& block, const Configuration& before, ValueRead
                   {"view", [&](const auto& each) {
                        layout.views.push_back(readView(each, before, reader));
                    }}});
+    if (layout.name == "OFF")
+        reader.findings().warning(block.place,
+                                  "the layout is called \"OFF\", which is how none is asked for: "
+                                  "that finds this one, and "
+                                  "its canvases are not turned off; call it otherwise");
     return layout;
 }
 
@@ -199,10 +208,13 @@ Canvas readCanvas(const Statement& block, const Configuration& before, ValueRead
         block, "a canvas",
         {{"name", [&](const auto& each) { reader.text(each, canvas.name); }},
          {"layout", [&](const auto& each) { addLayout(each, before, reader, canvas); }, true},
-         {"wall", [&](const auto& each) { canvas.surface = readWall(each, reader); }},
-         {"projection", [&](const auto& each) { canvas.surface = readProjection(each, reader); }},
+         {"wall", [&](const auto& each) { canvas.surface = readWall(each, reader); }, false,
+          "wall"},
+         {"projection", [&](const auto& each) { canvas.surface = readProjection(each, reader); },
+          false, "wall"},
          {"swapbarrier",
-          [&](const auto& each) { canvas.swapBarrier = readSwapBarrier(each, reader); }},
+          [&](const auto& each) { canvas.swapBarrier = readSwapBarrier(each, reader); }, false,
+          "swapbarrier"},
          {"segment", [&](const auto& each) {
               canvas.segments.push_back(readSegment(each, before, reader));
           }}});

@@ -13,6 +13,7 @@
 #include "coordinator/config/phases.h"
 #include "coordinator/config/pixels.h"
 #include "coordinator/config/queue_names.h"
+#include "coordinator/config/tiny_zooms.h"
 #include "coordinator/config/torn_pictures.h"
 #include "coordinator/config/unseen.h"
 #include "coordinator/config/unshown.h"
@@ -82,6 +83,7 @@ public:
             warnOfUnshown(tree, findings_);
             warnOfQueueNames(tree, findings_);
             warnOfTornPictures(tree, findings_);
+            warnOfTinyZooms(tree, findings_);
             warnOfIdleEqualizers(tree, findings_);
         }
         for (std::size_t i = 0; i < served_.size(); ++i)

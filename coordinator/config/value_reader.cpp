@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -60,14 +61,17 @@ void ValueReader::block(const Statement& block, std::string_view what,
                         std::initializer_list<Entry> entries) {
     if (block.form != Statement::Form::Block)
         return expected(block, "a block { }");
-    std::set<std::string_view> values;
+    std::map<std::string_view, std::string_view> values;  // who set each
     for (const Statement& statement : block.statements) {
         const auto entry = std::ranges::find(entries, statement.keyword, &Entry::keyword);
         const bool isValue =
             statement.form == Statement::Form::Plain || statement.form == Statement::Form::List;
-        if (entry != entries.end() && isValue && !entry->mayRepeat &&
-            !values.insert(entry->alias.empty() ? entry->keyword : entry->alias).second)
-            givenAgain(statement);
+        if (entry != entries.end() && !entry->mayRepeat && (isValue || !entry->alias.empty())) {
+            const auto [before, isNew] = values.try_emplace(
+                entry->alias.empty() ? entry->keyword : entry->alias, entry->keyword);
+            if (!isNew)
+                givenAgain(statement, std::exchange(before->second, entry->keyword));
+        }
         if (entry != entries.end())
             entry->read(statement);
         else if (!statement.keyword.empty())
@@ -106,10 +110,11 @@ void ValueReader::hasNoEffect(const Statement& statement, std::string_view why,
         findings_.note(statement.place, std::move(message));
 }
 
-void ValueReader::givenAgain(const Statement& statement) {
+void ValueReader::givenAgain(const Statement& statement, std::string_view before) {
     findings_.warning(
         statement.place,
-        fmt::format("'{}' is given again: what it was before does not count", statement.keyword));
+        fmt::format("'{}' is given again{}: what it was before does not count", statement.keyword,
+                    before == statement.keyword ? "" : fmt::format(" (before as '{}')", before)));
 }
 
 void ValueReader::text(const Statement& statement, std::string& target) {

@@ -20,8 +20,10 @@ namespace eyrie::config {
 struct Entry {
     std::string_view keyword;
     std::function<void(const Statement&)> read;
-    bool mayRepeat = false;       ///< a value that stands for one of several, as blocks do
-    std::string_view alias = {};  ///< a keyword that sets the same
+    bool mayRepeat = false;  ///< a value that stands for one of several, as blocks do
+    /// A keyword that sets the same, as a `projection` does what a `wall` does; its own of blocks
+    /// of which the last one counts.
+    std::string_view alias = {};
 };
 
 class ValueReader {
@@ -29,7 +31,7 @@ public:
     explicit ValueReader(Findings& findings) : findings_(findings) {}
 
     /// Hands each statement of a block to its keyword's entry; others are warned of, and values
-    /// that are given twice. `what` names the block.
+    /// that are given twice, as those blocks that set one. `what` names the block.
     void block(const Statement& block, std::string_view what, std::initializer_list<Entry> entries);
 
     void text(const Statement& statement, std::string& target);
@@ -104,8 +106,8 @@ public:
     /// Of what is accepted; `why` goes on a sentence.
     void hasNoEffect(const Statement& statement, std::string_view why,
                      Finding::Kind kind = Finding::Kind::Note);
-    /// Where a value was given before.
-    void givenAgain(const Statement& statement);
+    /// Where a value was given before, by this keyword or another.
+    void givenAgain(const Statement& statement, std::string_view before);
     Findings& findings() { return findings_; }
 
 private:

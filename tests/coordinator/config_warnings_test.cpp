@@ -2,6 +2,7 @@
 // What is said of compounds, frames and eyes that come to nothing.
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -43,6 +44,60 @@ TEST(EqcWarnings, SayWhichOfTwoValuesCounts) {
                          "f"),
                 testing::Not(HasSubstr("given again")))
         << "one of pixels, the other of the range";
+}
+
+/// Blocks, too, of which one counts.
+TEST(EqcWarnings, SayWhichOfTwoWallsCounts) {
+    const auto found = [](const std::string& text) { return describe(Read(text).findings, "f"); };
+    EXPECT_EQ(found("config { layout { view {\n wall {}\n projection {} } } }"),
+              "f:3:2: warning: 'projection' is given again (before as 'wall'): what it was before "
+              "does not count\n");
+    for (const char* twice : {"wall {} wall {}", "projection {} wall {}",
+                              "swapbarrier {} swapbarrier { name \"b\" }"}) {
+        EXPECT_THAT(found(withCompounds(fmt::format("compound {{ {} }}", twice))),
+                    HasSubstr("is given again"))
+            << twice;
+        EXPECT_THAT(found(fmt::format("config {{ canvas {{ {} }} }}", twice)),
+                    HasSubstr("is given again"))
+            << twice;
+        EXPECT_THAT(found(fmt::format("config {{ canvas {{ segment {{ {} }} }} }}", twice)),
+                    HasSubstr("is given again"))
+            << twice;
+    }
+    EXPECT_THAT(found("config { layout { view {} view {} } }"),
+                testing::Not(HasSubstr("given again")));
+}
+
+TEST(EqcWarnings, SayThatALayoutIsCalledAsNoneIs) {
+    EXPECT_THAT(
+        describe(Read("config {\nlayout { name \"OFF\" view {} } }").findings, "f"),
+        HasSubstr("f:2:1: warning: the layout is called \"OFF\", which is how none is asked "
+                  "for"));
+}
+
+TEST(EqcWarnings, SayWhichZoomsLeaveOnePixelOfMany) {
+    const auto found = [](const std::string& zoom, const std::string& output,
+                          const std::string& input) {
+        return describe(Read(withCompounds(fmt::format(
+                                 "compound {{ channel ( segment 0 view 0 )\ncompound {{ {} channel "
+                                 "\"b\"\noutputframe {{ name \"f\" {} }} }}\ninputframe {{ name "
+                                 "\"f\" {} }} }}",
+                                 zoom, output, input)))
+                            .findings,
+                        "f");
+    };
+    const std::string rest =
+        " pixels; it says how many there are for each one, as [ .5 .5 ] for half of them across "
+        "and along\n";
+    const char* const tiny = "zoom [ .0001 .0001 ]";
+    EXPECT_EQ(found(tiny, "", ""), "f:2:1: warning: the zoom leaves 1x1 of 640x480" + rest);
+    EXPECT_EQ(found("", tiny, ""), "f:3:1: warning: the zoom leaves 1x1 of 640x480" + rest);
+    EXPECT_EQ(found("zoom [ .5 .5 ]", "viewport [ 0 0 .5 1 ] zoom [ 1 .002 ]", ""),
+              "f:3:1: warning: the zoom leaves 160x1 of 160x240" + rest);
+    EXPECT_EQ(found("", "zoom [ .5 .5 ]", "zoom [ .001 2 ]"),
+              "f:4:1: warning: the zoom leaves 1x480 of 320x240" + rest);
+    EXPECT_EQ(found("zoom [ .1 .1 ]", "zoom [ .1 .1 ]", "zoom [ 100 100 ]"), "");
+    EXPECT_EQ(found("zoom [ .02 .02 ]", tiny, ""), "") << "of 13x10 pixels";
 }
 
 TEST(EqcWarnings, SayWhatShowsNothing) {
