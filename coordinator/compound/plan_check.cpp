@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "coordinator/compound/equalizer/equalizers.h"
+#include "coordinator/compound/lone_eyes.h"
 #include "coordinator/compound/plan.h"
 #include "coordinator/config/resolved.h"
 
@@ -133,6 +134,8 @@ void checkPlans(const config::Configuration& configuration, config::Findings& fi
         return findings.warning({},
                                 "there is no canvas, so nothing is shown; give it one, with a "
                                 "segment and a layout of a view");
+    config::Findings told;  // by whoever resolved it before
+    warnOfLoneEyes(configuration, config::resolve(configuration, told), findings);
     Checker checker(findings);
     eachPlan(balanced(configuration),
              [&](const std::optional<Plan>& plan, const Refusals& refusals) {

@@ -17,8 +17,8 @@ namespace eyrie::compound {
 /// kMostFramesTried), as large as it is configured and as its equalizers share it out before they
 /// have learned anything. Adds the errors with which there is no picture in any size, such as
 /// frames that wait for each other, and warns of pictures that renderers draw smaller only, of
-/// parts of pictures that nobody draws, of parts of the data that come without depth, and of a
-/// configuration without canvas.
+/// parts of pictures that nobody draws, of parts of the data that come without depth, of what
+/// one eye alone sees in stereo, and of a configuration without canvas.
 void checkPlans(const config::Configuration& configuration, config::Findings& findings);
 inline constexpr std::int64_t kMostFramesTried = 60;
 

@@ -410,6 +410,44 @@ TEST(DivisionCheck, DividesNoDataWhoseDepthsNobodySends) {
                 HasSubstr("cannot divide data"));
 }
 
+TEST(PlanCheck, WarnsOfWhatOneEyeAloneSeesInStereo) {
+    const auto found = [](std::string_view mode, std::string_view segments,
+                          std::string_view further) {
+        return foundIn(fmt::format(
+            "config {{ appNode {{ pipe {{ window {{ channel {{ name \"a\" }} channel {{ "
+            "name \"b\" }} }} }} }} layout {{ view {{ mode {} }} }} canvas {{ layout 0\n"
+            "{} }}\n{} }}",
+            mode, segments, further));
+    };
+    const auto segment = [](std::string_view channel, std::string_view viewport,
+                            std::string_view eyes) {
+        return fmt::format("segment {{ channel \"{}\" viewport [ {} ] eye [ {} ] }}", channel,
+                           viewport, eyes);
+    };
+    const auto lone = [](std::string_view place, std::string_view eye) {
+        return fmt::format(
+            "f:{}: warning: the segment shows the view's eye {} where none shows the other's: in "
+            "stereo that sees background there\n",
+            place, eye);
+    };
+    const std::string left = segment("a", "0 0 1 1", "LEFT");
+    const std::string right = segment("b", "0 0 1 1", "RIGHT");
+    EXPECT_EQ(found("STEREO", left, ""), lone("2:1", "LEFT"));
+    EXPECT_EQ(found("MONO", segment("a", "0 0 1 1", "CYCLOP LEFT"), ""), "");
+    EXPECT_EQ(found("STEREO", left + right, ""), "");
+    EXPECT_EQ(found("STEREO", left, "canvas { layout 0 " + right + " }"), "");
+    EXPECT_EQ(found("STEREO",
+                    segment("a", "0 0 .333 1", "LEFT RIGHT") +
+                        segment("b", ".333 0 .667 1", "LEFT RIGHT"),
+                    ""),
+              "");
+    EXPECT_EQ(
+        found("STEREO",
+              segment("a", "0 .5 1 .5", "LEFT") + "\n" + segment("b", "0 0 1 .5", "RIGHT"), ""),
+        lone("2:1", "LEFT") + lone("3:1", "RIGHT"))
+        << "one above the other, but each of another half of the view";
+}
+
 TEST(PlanCheck, WarnsOfAConfigurationThatShowsNothing) {
     EXPECT_THAT(foundIn("config { node { pipe {} } }"),
                 HasSubstr("f: warning: there is no canvas, so nothing is shown"));
