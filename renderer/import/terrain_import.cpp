@@ -79,6 +79,17 @@ std::vector<std::string> notesOnOutput(const std::string& out, const PartIdentit
                     out)};
 }
 
+/// Posts that stand one by one, or in a line, or around a half of a cell that is none of the
+/// grid's.
+absl::Status noTriangles(const std::string& name, const terrain::ElevationModel& model) {
+    const auto posts = static_cast<std::uint64_t>(model.frame.columns) *
+                       static_cast<std::uint64_t>(model.frame.rows);
+    return absl::InvalidArgumentError(
+        fmt::format("{}: {} of {} posts have data, but no triangle of the grid has data at all of "
+                    "its corners, so there is nothing to draw; check the nodata value",
+                    name, posts - model.statistics.nodataPosts, posts));
+}
+
 absl::Status explained(const absl::Status& error, const std::vector<std::string>& findings) {
     std::string message(error.message());
     for (const std::string& finding : findings) message += "; " + finding;
@@ -184,8 +195,7 @@ private:
         terrain::EytIndex index = emptyIndex(model_, lattice, source_.crsWkt, source_.hash);
         RETURN_IF_ERROR(writePages(lattice, stages, index, writer));
         if (index.triangles() == 0)
-            return absl::InvalidArgumentError(fmt::format(
-                "{}: no three neighbouring posts have data; check the nodata value", source_.name));
+            return noTriangles(source_.name, model_);
         if (imagery_ != nullptr) {
             const NamedPictures pictures{fmt::format("{}", fmt::join(options_.imagery, ", ")),
                                          stages.areKept() ? pictureStamp(options_.imagery) : 0};

@@ -79,7 +79,7 @@ struct TerrainSource {
 /// building, with smoothing and thinning between its levels, imagery.
 /// Errors: those of openMosaic, openImagery, buildImagery and PartSet; NotFound, PermissionDenied,
 /// ResourceExhausted for `out` and the scratch; FailedPrecondition while another import into `out`
-/// is at work; InvalidArgument when no cell has data on three corners; Cancelled.
+/// is at work; InvalidArgument when no triangle has data at its corners; Cancelled.
 absl::StatusOr<TerrainImportReport> importTerrain(const std::vector<std::string>& dems,
                                                   const std::string& out,
                                                   const TerrainImportOptions& options,

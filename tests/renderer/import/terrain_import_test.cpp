@@ -197,6 +197,12 @@ TEST(TerrainImport, RefusesAGridWithoutAnyDataOrTriangle) {
     grid.row(3)[4] = grid.row(3)[5] = 7;
     const auto two = importTerrain(grid, {"a.tif", "", 0}, folder.path("a.eyt"), {});
     EXPECT_EQ(two.status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(two.status().ToString(),
+                testing::HasSubstr("a.tif: 2 of 1200 posts have data, but no triangle"));
+    grid.row(3)[5] = terrain::kNodata;
+    grid.row(4)[4] = grid.row(4)[5] = 7;  // a half of a cell that is split the other way
+    const auto three = importTerrain(grid, {"a.tif", "", 0}, folder.path("a.eyt"), {});
+    EXPECT_THAT(three.status().ToString(), testing::HasSubstr("3 of 1200 posts have data, but"));
     EXPECT_TRUE(folder.files().empty());
 }
 
