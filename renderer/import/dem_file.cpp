@@ -22,9 +22,9 @@ namespace {
 
 /// What a pixel value has to go through to be metres.
 struct ValueRule {
-    bool isSignedByte = false;  ///< GDAL before 3.7 reads these as 0 to 255
-    std::optional<float> nodata;
-    bool lowestIsNodata = false;  ///< -32768, in 16-bit rasters, said or not
+    bool isSignedByte = false;     ///< GDAL before 3.7 reads these as 0 to 255
+    std::optional<double> nodata;  ///< as values of the raster's type have it
+    bool lowestIsNodata = false;   ///< -32768, in 16-bit rasters, said or not
     double scale = 1;
     double offset = 0;
     bool isWide = false;     ///< values may have more digits than floats have
@@ -128,10 +128,12 @@ absl::StatusOr<ValueRule> valueRule(const std::string& path, GDALRasterBandH ban
                                     OGRSpatialReferenceH crs, std::vector<std::string>& notes) {
     ValueRule rule;
     int isSet = 0;
+    const GDALDataType type = GDALGetRasterDataType(band);
+    rule.isWide = GDALGetDataTypeSizeBits(type) > 16 && type != GDT_Float32;
     const double nodata = GDALGetRasterNoDataValue(band, &isSet);
     if (isSet != 0)
-        rule.nodata = static_cast<float>(nodata);
-    rule.lowestIsNodata = GDALGetRasterDataType(band) == GDT_Int16;
+        rule.nodata = rule.isWide ? nodata : static_cast<float>(nodata);
+    rule.lowestIsNodata = type == GDT_Int16;
     const char* const pixelType = GDALGetMetadataItem(band, "PIXELTYPE", "IMAGE_STRUCTURE");
     rule.isSignedByte = pixelType != nullptr && EQUAL(pixelType, "SIGNEDBYTE");
     const double scale = GDALGetRasterScale(band, &isSet);
@@ -147,15 +149,13 @@ absl::StatusOr<ValueRule> valueRule(const std::string& path, GDALRasterBandH ban
             "have them; if they count downward, say so first (gdal_translate -a_scale -1)");
     rule.scale = scale * unit;
     rule.offset = offset * unit;
-    const GDALDataType type = GDALGetRasterDataType(band);
-    rule.isWide = GDALGetDataTypeSizeBits(type) > 16 && type != GDT_Float32;
     const bool isWhole = type != GDT_Float64 && GDALDataTypeIsInteger(type) != 0;
     const bool isAsItIs = rule.scale == 1 && rule.offset == 0;
     rule.isRounded = !(isAsItIs && (isWhole || type == GDT_Float32));
     return rule;
 }
 
-bool isSaidToBeNodata(float value, const ValueRule& rule) {
+bool isSaidToBeNodata(double value, const ValueRule& rule) {
     return value != value || (rule.nodata && value == *rule.nodata);
 }
 
@@ -164,8 +164,8 @@ bool isInReach(double height) {
     return std::abs(height) < kImpossible;
 }
 
-bool isPossible(float value, const ValueRule& rule) {
-    return isInReach(value) && !(rule.lowestIsNodata && value == -32768.0F);
+bool isPossible(double value, const ValueRule& rule) {
+    return isInReach(value) && !(rule.lowestIsNodata && value == -32768);
 }
 
 absl::StatusOr<Georeference> georeferenceOf(const std::string& path, GDALDatasetH dataset,
@@ -288,10 +288,9 @@ private:
     float heightOf(double value, int column, int row) {
         if (rule_.isSignedByte && value > 127)
             value -= 256;
-        const auto nearest = static_cast<float>(value);
-        if (isSaidToBeNodata(nearest, rule_))
+        if (isSaidToBeNodata(value, rule_))
             return terrain::kNodata;
-        const bool isHeight = isPossible(nearest, rule_);
+        const bool isHeight = isPossible(value, rule_);
         const double height = value * rule_.scale + rule_.offset;
         if (isHeight && isInReach(height))
             return static_cast<float>(height);

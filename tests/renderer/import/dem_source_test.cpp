@@ -210,6 +210,37 @@ TEST_F(DemSource, SaysWhereOnlyScaleOrOffsetMakeHeightsImpossible) {
     EXPECT_THAT(dem->findings, testing::ElementsAre(HasSubstr("1e+38 in column 1 and row 0")));
 }
 
+/// Of which floats have every second one only.
+TEST_F(DemSource, HeightsBesideNodataAreHeightsHoweverLargeTheyAre) {
+    const std::string source =
+        written("large.asc",
+                "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value 16777217\n"
+                "16777216 16777217 16777218\n1 2 3\n");
+    const std::string wide = written(
+        "wide.vrt",
+        "<VRTDataset rasterXSize=\"3\" rasterYSize=\"2\"><VRTRasterBand dataType=\"Float64\" "
+        "band=\"1\"><NoDataValue>16777217</NoDataValue><Scale>0.001</Scale><SimpleSource>"
+        "<SourceFilename relativeToVRT=\"1\">large.asc</SourceFilename><SourceBand>1</SourceBand>"
+        "</SimpleSource></VRTRasterBand></VRTDataset>");
+    for (const auto& [path, scale] : {std::pair(source, 1.0F), {wide, 0.001F}}) {
+        const auto dem = test::readDem(path);
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        EXPECT_FLOAT_EQ(dem->grid.at(0, 1), 16777216 * scale);
+        EXPECT_TRUE(std::isnan(dem->grid.at(1, 1))) << path;
+        EXPECT_FLOAT_EQ(dem->grid.at(2, 1), 16777218 * scale);
+    }
+}
+
+TEST_F(DemSource, NodataOfFloatsMayHaveMoreDigits) {
+    const auto dem =
+        test::readDem(written("grid.asc",
+                              "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n"
+                              "NODATA_value -9999.9\n1.5 -9999.9\n2 3\n"));
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_EQ(dem->grid.at(0, 1), 1.5F);
+    EXPECT_TRUE(std::isnan(dem->grid.at(1, 1)));
+}
+
 TEST_F(DemSource, ReadsTheLowest16BitValueAsNodata) {
     const auto dem = test::readDem(
         virtualRaster("", "<NoDataValue>-32678</NoDataValue><Offset>0</Offset>", "Int16"));
