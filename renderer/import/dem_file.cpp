@@ -206,6 +206,20 @@ absl::Status turnToDegrees(const std::string& path, OGRSpatialReferenceH crs,
     return absl::OkStatus();
 }
 
+/// Rows of a raster in degrees whose posts lie beyond a pole: no map has a place for them.
+int rowsBeyondPoles(const DemFile& file) {
+    const Georeference& g = file.reference;
+    if (!file.isGeographic() || g.perColumn.y != 0)
+        return 0;
+    constexpr double kPole = 90 + 1e-6;  // posts on it may be off by a rounding
+    const auto [low, high] =
+        std::minmax({(kPole - g.origin.y) / g.perRow.y, (-kPole - g.origin.y) / g.perRow.y});
+    const double rows = file.rows;
+    const double first = std::clamp(std::ceil(low - 0.5), 0.0, rows);
+    const double end = std::clamp(std::floor(high - 0.5) + 1, first, rows);
+    return file.rows - static_cast<int>(end - first);
+}
+
 /// What says which of a band's pixels have heights, beside its values; null: nothing does.
 GDALRasterBand* maskOf(GDALDataset& dataset, GDALRasterBand& heights) {
     const int flags = heights.GetMaskFlags();
@@ -383,6 +397,9 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
     if (crs != nullptr)
         file.crs.reset(OSRClone(crs));
     RETURN_IF_ERROR(turnToDegrees(path, file.crs.get(), file.reference, file.notes));
+    if (const int rows = rowsBeyondPoles(file); rows > 0)
+        file.notes.push_back(
+            fmt::format("{} of {} rows lie beyond a pole; they are left out", rows, file.rows));
     cutToOneTurn(file.crs.get(), file.reference, file.columns);
     ASSIGN_OR_RETURN(file.hash, rasterHash(path, dataset.get(), hashFolder, stop));
     const auto impossible = std::make_shared<std::optional<ImpossibleHeight>>();

@@ -28,7 +28,8 @@ struct DemSource {
 /// Posts are pixel centres. One raster in a projected CRS, or none, keeps its grid, rotation
 /// included, with units turned to metres. A geographic one is reprojected to what suits
 /// its size and place (local_projection.h; as a rule the UTM zone of its centre up to 30 degrees),
-/// bilinearly, at the spacing GDAL suggests; of more than 360 degrees what goes on is left out.
+/// bilinearly, at the spacing GDAL suggests; of more than 360 degrees what goes on is left out, and
+/// so are rows beyond the poles, with a note.
 ///
 /// Several are laid over each other: the CRS is that of the finest projected one, or what
 /// suits all of them where all are geographic, the short way round; the grid is that of the

@@ -173,6 +173,30 @@ TEST_F(HardCase26, WideLandsHaveEveryPlaceWhereProjHasIt) {
     }
 }
 
+/// Posts from 94.5 to 65.5 degrees, of a formula that goes on; and from the pole on.
+TEST_F(HardCase26, RowsBeyondAPoleAreLeftOutAndSaidSo) {
+    const auto capFrom = [&](double north) {
+        return test::readDem(write({.epsg = kDegrees,
+                                    .west = -180,
+                                    .north = north,
+                                    .pixel = 1,
+                                    .columns = 360,
+                                    .rows = 30,
+                                    .height = constant(5)}));
+    };
+    const auto beyond = capFrom(95);
+    ASSERT_TRUE(beyond.ok()) << beyond.status();
+    EXPECT_THAT(beyond->notes,
+                testing::Contains("5 of 30 rows lie beyond a pole; they are left out"));
+    const auto onPole = capFrom(90.5);
+    ASSERT_TRUE(onPole.ok()) << onPole.status();
+    EXPECT_THAT(onPole->notes, testing::Not(testing::Contains(HasSubstr("beyond a pole"))));
+    const auto south = capFrom(-62.5);
+    ASSERT_TRUE(south.ok()) << south.status();
+    EXPECT_THAT(south->notes,
+                testing::Contains("2 of 30 rows lie beyond a pole; they are left out"));
+}
+
 /// Grids with posts on the poles, and on the meridian where they begin, twice, reach half a pixel
 /// beyond both; others do by a rounding. Pixels of a degree, see below.
 TEST_F(HardCase26, GridsBeyondThePolesAndATurnHaveAllOfTheEarth) {
