@@ -13,6 +13,7 @@
 #include <gdal_priv.h>
 #include <glm/trigonometric.hpp>
 
+#include "fabric/scene_reach.h"
 #include "fabric/status.h"
 #include "renderer/import/raster_file.h"
 #include "renderer/terrain/height_grid.h"
@@ -159,13 +160,9 @@ bool isSaidToBeNodata(double value, const ValueRule& rule) {
     return value != value || (rule.nodata && value == *rule.nodata);
 }
 
-bool isInReach(double height) {
-    constexpr double kImpossible = 1e30;
-    return std::abs(height) < kImpossible;
-}
-
 bool isPossible(double value, const ValueRule& rule) {
-    return isInReach(value) && !(rule.lowestIsNodata && value == -32768);
+    constexpr double kImpossible = 1e30;
+    return std::abs(value) < kImpossible && !(rule.lowestIsNodata && value == -32768);
 }
 
 absl::StatusOr<Georeference> georeferenceOf(const std::string& path, GDALDatasetH dataset,
@@ -306,8 +303,9 @@ private:
             return terrain::kNodata;
         const bool isHeight = isPossible(value, rule_);
         const double height = value * rule_.scale + rule_.offset;
-        if (isHeight && isInReach(height))
-            return static_cast<float>(height);
+        if (const auto nearest = static_cast<float>(height);
+            isHeight && std::abs(nearest) <= fabric::kMaxSceneMetres)
+            return nearest;
         if (!*impossible_)
             *impossible_ = {column, row, isHeight ? height : value};
         return terrain::kNodata;

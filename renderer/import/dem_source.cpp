@@ -63,11 +63,13 @@ absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
     control.report("checking", 1);
     if (files.empty())
         return absl::InvalidArgumentError("no elevation model was named");
+    const std::string name = nameOf(files);
     const bool isOne = files.size() == 1 && !files.front().isGeographic();
     if (files.size() == 1)
         RETURN_IF_ERROR(checkSize(files.front().path, files.front().columns, files.front().rows));
     ASSIGN_OR_RETURN(DemSource source, isOne ? openAsItIs(std::move(files.front()))
                                              : mosaicOf(std::move(files), gdal));
+    RETURN_IF_ERROR(checkReach(name, source.posts->frame()));
     source.hash = hash;
     source.isRounded = isRounded;
     return source;

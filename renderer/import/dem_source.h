@@ -41,14 +41,16 @@ struct DemSource {
 /// Each raster's own scale, offset and foot units (the band's or, where it has none, those of its
 /// CRS's heights) are applied; vertical datums are left as they are, with a note where they differ,
 /// and so are values whose CRS is of depths. Nodata: the band's tag, its mask or an alpha band,
-/// NaN, infinities, magnitudes from 1e30, and -32768 in 16-bit rasters; what of this the file does
-/// not itself call nodata is among the posts' findings.
+/// NaN, infinities, magnitudes from 1e30, heights beyond what scenes reach (fabric/scene_reach.h),
+/// and -32768 in 16-bit rasters; what of this the file does not itself call nodata is among the
+/// posts' findings.
 ///
 /// Reports as "checking" while it reads the files for their hash, unless that is in `hashFolder`
 /// (fileHash; empty: there is none). Errors, naming file and field:
 /// NotFound, InvalidArgument (no raster, not heights, less than 2 x 2 posts, no usable
-/// georeference or one by control points, a CRS of no map, not to be brought together),
-/// ResourceExhausted (more posts than an .eyt holds). Posts that cannot be read are DataLoss.
+/// georeference or one by control points, a CRS of no map, not to be brought together, beyond what
+/// scenes reach), ResourceExhausted (more posts than an .eyt holds). Posts that cannot be read are
+/// DataLoss.
 /// Nothing is printed, no file is written.
 absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
                                    const ImportControl& control,

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include "fabric/scene_reach.h"
 #include "fabric/status.h"
 #include "renderer/import/raster_file.h"
 #include "renderer/terrain/quadtree.h"
@@ -155,6 +156,21 @@ absl::Status checkSize(const std::string& path, std::int64_t columns, std::int64
                         "import a part of "
                         "it (gdal_translate -srcwin) or fewer posts (-outsize)",
                         path, columns, rows, grid, kMaxSide, terrain::kMaxGridPosts));
+    return absl::OkStatus();
+}
+
+absl::Status checkReach(const std::string& path, const terrain::GridFrame& frame) {
+    constexpr double kMost = fabric::kMaxSceneMetres;
+    const Vec2 across = frame.perColumn * static_cast<double>(frame.columns - 1);
+    const Vec2 along = frame.perRow * static_cast<double>(frame.rows - 1);
+    for (const Vec2& step : {Vec2(0.0), across, along, across + along})
+        for (const double metres : {frame.origin.x + step.x, frame.origin.y + step.y})
+            if (!(std::abs(metres) <= kMost))
+                return invalid(path,
+                               fmt::format("reaches to {:.3g} metres; scenes reach from {:g} to "
+                                           "{:g}: give it the right georeference (gdal_edit.py "
+                                           "-a_ullr)",
+                                           metres, -kMost, kMost));
     return absl::OkStatus();
 }
 

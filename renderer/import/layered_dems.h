@@ -39,6 +39,9 @@ double determinant(const Georeference& reference);
 absl::Status checkSize(const std::string& path, std::int64_t columns, std::int64_t rows,
                        const std::string& grid = {});
 
+/// InvalidArgument where posts lie beyond what scenes reach. `path` is for the message.
+absl::Status checkReach(const std::string& path, const terrain::GridFrame& frame);
+
 /// Layers as posts, the best one with data first. `reference` is in metres, of a raster of
 /// `columns` x `rows`.
 std::unique_ptr<HeightSource> layeredDems(std::vector<DemLayer> layers,

@@ -241,6 +241,15 @@ TEST_F(DemSource, NodataOfFloatsMayHaveMoreDigits) {
     EXPECT_TRUE(std::isnan(dem->grid.at(1, 1)));
 }
 
+TEST_F(DemSource, HeightsBeyondWhatScenesReachAreNodata) {
+    const auto dem = test::readDem(asciiGrid(3, 2, "1e20 -1.01e14 0.5\n9.9e13 -9.9e13 1"));
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    std::string pattern;
+    for (const float h : dem->grid.heights) pattern += std::isnan(h) ? '-' : 'x';
+    EXPECT_EQ(pattern, "xxx--x");
+    EXPECT_THAT(dem->findings, testing::ElementsAre(HasSubstr("1e+20 in column 0 and row 0")));
+}
+
 TEST_F(DemSource, ReadsTheLowest16BitValueAsNodata) {
     const auto dem = test::readDem(
         virtualRaster("", "<NoDataValue>-32678</NoDataValue><Offset>0</Offset>", "Int16"));
@@ -381,6 +390,22 @@ TEST_F(DemSource, RefusesGeoreferencesWithoutArea) {
         expectRefused(
             virtualRaster("<GeoTransform>" + std::string(transform) + "</GeoTransform>", ""),
             absl::StatusCode::kInvalidArgument, "geotransform");
+}
+
+TEST_F(DemSource, RefusesPlacesBeyondWhatScenesReach) {
+    const auto at = [this](const char* transform) {
+        return virtualRaster("<GeoTransform>" + std::string(transform) + "</GeoTransform>", "");
+    };
+    EXPECT_TRUE(test::readDem(at("-99999999999990,10,0,99999999999990,0,-10")).ok());
+    for (const auto& [transform, metres] : {std::pair("2e14,10,0,0,0,-10", "2e+14"),
+                                            {"0,10,0,-2e14,0,-10", "-2e+14"},
+                                            {"0,6e13,0,0,0,-10", "1.5e+14"},
+                                            {"0,10,0,0,0,-1e14", "-1.5e+14"},
+                                            {"1e300,1,0,0,0,-1", "1e+300"}})
+        expectRefused(at(transform), absl::StatusCode::kInvalidArgument,
+                      fmt::format("reaches to {} metres; scenes reach from -1e+14 to 1e+14: give "
+                                  "it the right georeference",
+                                  metres));
 }
 
 TEST_F(DemSource, RefusesDegreesBeyondThePoles) {
