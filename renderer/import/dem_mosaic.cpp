@@ -20,6 +20,7 @@
 #include "renderer/import/layered_dems.h"
 #include "renderer/import/length_caveat.h"
 #include "renderer/import/local_projection.h"
+#include "renderer/import/rimmed_dem.h"
 
 namespace eyrie::import {
 namespace {
@@ -53,16 +54,14 @@ public:
         order_ = bestFirst(files_);
         RETURN_IF_ERROR(chooseCrs());
         RETURN_IF_ERROR(chooseGrid());
-        std::vector<DemLayer> layers;
         const auto isAlone = [this](const DemFile& file) { return isOnGrid(file); };
         for (const std::vector<std::size_t>& run : runsOf(files_, order_, isAlone)) {
             std::vector<DemFile> together;
             for (const std::size_t k : run) together.push_back(std::move(files_[k]));
-            ASSIGN_OR_RETURN(std::optional<DemLayer> layer, layerOf(std::move(together)));
-            if (layer)
-                layers.push_back(*std::move(layer));
+            RETURN_IF_ERROR(addLayer(std::move(together)));
         }
-        return assembled(std::move(layers));
+        RETURN_IF_ERROR(resample());
+        return assembled();
     }
 
 private:
@@ -261,7 +260,7 @@ private:
         return box;
     }
 
-    absl::StatusOr<std::optional<DemLayer>> layerOf(std::vector<DemFile> files) {
+    absl::Status addLayer(std::vector<DemFile> files) {
         DemLayer layer;
         std::optional<PixelBox> all;
         for (DemFile& file : files) {
@@ -277,24 +276,82 @@ private:
             layer.files.push_back(std::move(file));
         }
         if (!all)
-            return std::nullopt;
+            return absl::OkStatus();
         layer.box = *all;
-        if (isOnGrid(layer.files.front()))
-            return layer;
-        if (layer.files.size() > 1)
-            layer.joined = joined(layer.files);
-        ASSIGN_OR_RETURN(layer.warped, reprojected(layer.source(), nameOf(layer.files), wkt_, grid_,
-                                                   layer.box, gdal_));
-        for (const DemFile& file : layer.files)
-            notes_.push_back(fmt::format("{} resampled", file.path));
-        return layer;
+        layers_.push_back(std::move(layer));
+        return absl::OkStatus();
     }
 
-    absl::StatusOr<DemSource> assembled(std::vector<DemLayer> layers) {
+    /// Two pixels of a layer, in posts, and one for what boxes may be off.
+    static int rimReachOf(const DemLayer& layer) {
+        const double pixels =
+            std::max(static_cast<double>(layer.box.columns) / GDALGetRasterXSize(layer.source()),
+                     static_cast<double>(layer.box.rows) / GDALGetRasterYSize(layer.source()));
+        return static_cast<int>(std::ceil(2 * pixels)) + 1;
+    }
+
+    /// Other layers that lie beside it, best first.
+    std::vector<const DemLayer*> besides(const DemLayer& layer) const {
+        std::vector<const DemLayer*> found;
+        for (const DemLayer& other : layers_) {
+            const std::int64_t reach = std::max(layer.rimReach, other.rimReach);
+            const auto touch = [reach](std::int64_t a, int columns, std::int64_t b, int others) {
+                return a <= b + others + reach && b <= a + columns + reach;
+            };
+            if (&other != &layer &&
+                touch(layer.box.column, layer.box.columns, other.box.column, other.box.columns) &&
+                touch(layer.box.row, layer.box.rows, other.box.row, other.box.rows))
+                found.push_back(&other);
+        }
+        return found;
+    }
+
+    Dataset rimmedBy(const DemLayer& layer, const std::vector<DemNeighbour>& neighbours) const {
+        return neighbours.empty() ? nullptr : rimmed(layer.source(), neighbours, grid_, crs_.get());
+    }
+
+    absl::StatusOr<Dataset> onGrid(const DemLayer& layer, GDALDatasetH heights) {
+        return reprojected(heights, nameOf(layer.files), wkt_, grid_, layer.box, gdal_);
+    }
+
+    /// Two rasters that end at each other are each beside what only the other knows. Rims of what
+    /// all know by themselves come first; what ends within another's such rim is told by that.
+    absl::Status resample() {
+        for (DemLayer& layer : layers_) {
+            if (layer.files.size() > 1)
+                layer.joined = joined(layer.files);
+            layer.rimReach = rimReachOf(layer);
+        }
+        for (DemLayer& layer : layers_) {
+            std::vector<DemNeighbour> neighbours;
+            for (const DemLayer* const other : besides(layer))
+                neighbours.push_back({other->source(), other->box});
+            layer.rimmed = rimmedBy(layer, neighbours);
+        }
+        for (DemLayer& layer : layers_) {
+            if (isOnGrid(layer.files.front()))
+                continue;
+            std::vector<DemNeighbour> neighbours;
+            for (const DemLayer* const other : besides(layer))
+                neighbours.push_back({other->source(), other->box});
+            for (const DemLayer* const other : besides(layer))
+                neighbours.push_back({other->rimmed.get(), other->box});
+            layer.twiceRimmed = rimmedBy(layer, neighbours);
+            ASSIGN_OR_RETURN(layer.warped, onGrid(layer, layer.source()));
+            if (layer.twiceRimmed) {
+                ASSIGN_OR_RETURN(layer.rimmedWarped, onGrid(layer, layer.twiceRimmed.get()));
+            }
+            for (const DemFile& file : layer.files)
+                notes_.push_back(fmt::format("{} resampled", file.path));
+        }
+        return absl::OkStatus();
+    }
+
+    absl::StatusOr<DemSource> assembled() {
         const PixelBox all = extent_.value();
         const std::string grid = crs_ ? OSRGetName(crs_.get()) : "one grid";
         RETURN_IF_ERROR(checkSize(name_, all.columns, all.rows, " in " + grid));
-        for (DemLayer& layer : layers) {
+        for (DemLayer& layer : layers_) {
             layer.box.column -= all.column;
             layer.box.row -= all.row;
         }
@@ -315,7 +372,7 @@ private:
             caveat_ = lengthCaveat(crs_.get(), inUnits, all.columns, all.rows);
         if (!caveat_.empty())
             notes_.push_back(caveat_);
-        return DemSource{layeredDems(std::move(layers), reference, all.columns, all.rows),
+        return DemSource{layeredDems(std::move(layers_), reference, all.columns, all.rows),
                          crs_ ? metricWktOf(crs_.get()) : "", 0, std::move(notes_)};
     }
 
@@ -328,6 +385,7 @@ private:
     std::string caveat_;         ///< of lengths in the CRS, for people
     std::string wkt_;            ///< of `crs_`, in whose units `grid_` is
     PixelGrid grid_;
+    std::vector<DemLayer> layers_;    ///< best first, on the grid
     std::optional<PixelBox> extent_;  ///< of all that have been placed
     double placed_ = 0;               ///< posts of these, those that several have counted anew
     std::vector<std::string> notes_;

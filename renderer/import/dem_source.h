@@ -35,8 +35,9 @@ struct DemSource {
 /// suits all of them where all are geographic, the short way round; the grid is that of the
 /// finest. Those on that grid already keep their posts as they are; the others are resampled
 /// bilinearly, tiles of one grid of their own as one raster, so that no post between rasters that
-/// touch is open. Where some overlap the finest with data wins, among equally fine ones the one
-/// named last. What none covers is nodata.
+/// touch is open, and up to their rim towards what lies beside them (rimmed_dem.h). Where some
+/// overlap the finest with data wins, among equally fine ones the one named last. What none covers
+/// is nodata.
 ///
 /// Each raster's own scale, offset and foot units (the band's or, where it has none, those of its
 /// CRS's heights) are applied; vertical datums are left as they are, with a note where they differ,

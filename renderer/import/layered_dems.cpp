@@ -10,7 +10,7 @@
 
 #include "fabric/scene_reach.h"
 #include "fabric/status.h"
-#include "renderer/import/raster_file.h"
+#include "renderer/import/layer_reader.h"
 #include "renderer/terrain/quadtree.h"
 
 namespace eyrie::import {
@@ -30,7 +30,8 @@ public:
     /// Best layer first. `reference` is in metres, of a raster of columns x rows.
     LayeredSource(std::vector<DemLayer> layers, const Georeference& reference, int columns,
                   int rows)
-        : layers_(std::move(layers)), isFlipped_(determinant(reference) < 0) {
+        : isFlipped_(determinant(reference) < 0) {
+        for (DemLayer& layer : layers) layers_.emplace_back(std::move(layer));
         frame_ = {columns, rows, reference.origin + (reference.perColumn + reference.perRow) * 0.5,
                   reference.perColumn, reference.perRow};
         if (!isFlipped_)
@@ -47,7 +48,7 @@ public:
             static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows);
         std::fill_n(out, count, terrain::kNodata);
         bool isFirst = true;
-        for (const DemLayer& layer : layers_) {
+        for (LayerReader& layer : layers_) {
             if (!isFirst && std::none_of(out, out + count, [](float h) { return h != h; }))
                 break;
             RETURN_IF_ERROR(addLayer(layer, window, out));
@@ -61,15 +62,16 @@ public:
 
     std::uint64_t readingBytes() const override {
         constexpr std::uint64_t kWarping = std::uint64_t{40} << 20;  // measured
-        return std::ranges::any_of(layers_, [](const auto& each) { return bool{each.warped}; })
+        return std::ranges::any_of(layers_,
+                                   [](const auto& each) { return bool{each.layer().warped}; })
                    ? kWarping
                    : 0;
     }
 
     std::vector<std::string> findings() const override {
         std::vector<std::string> findings = findings_;
-        for (const DemLayer& layer : layers_)
-            for (const DemFile& file : layer.files)
+        for (const LayerReader& reader : layers_)
+            for (const DemFile& file : reader.layer().files)
                 if (const auto& found = *file.impossible)
                     findings.push_back(fmt::format(
                         "{} in column {} and row {} of {} can be no height; it is taken for "
@@ -92,9 +94,9 @@ public:
 
 private:
     /// Fills in what is nodata so far.
-    absl::Status addLayer(const DemLayer& layer, const terrain::PostRect& window, float* out) {
+    absl::Status addLayer(LayerReader& reader, const terrain::PostRect& window, float* out) {
         const int firstRow = isFlipped_ ? frame_.rows - window.j - window.rows : window.j;
-        const auto box = layer.box;
+        const PixelBox& box = reader.layer().box;
         const int i0 = std::max(window.i, static_cast<int>(box.column));
         const int j0 = std::max(firstRow, static_cast<int>(box.row));
         const int i1 =
@@ -102,29 +104,22 @@ private:
         const int j1 = std::min(firstRow + window.rows, static_cast<int>(box.row) + box.rows);
         if (i0 >= i1 || j0 >= j1)
             return absl::OkStatus();
-        const int columns = i1 - i0;
-        const int rows = j1 - j0;
-        buffer_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-        QuietGdal gdal;
-        if (GDALRasterIO(layer.band(), GF_Read, i0 - static_cast<int>(box.column),
-                         j0 - static_cast<int>(box.row), columns, rows, buffer_.data(), columns,
-                         rows, GDT_Float32, 0, 0) != CE_None)
-            return absl::DataLossError(fmt::format(
-                "{}: rows {} to {} cannot be read ({}); {}", nameOf(layer.files), j0 - box.row,
-                j1 - 1 - box.row, gdal.takeError(), whyUnreadable(layer.files.front().path)));
+        const terrain::PostRect part{i0 - static_cast<int>(box.column),
+                                     j0 - static_cast<int>(box.row), i1 - i0, j1 - j0};
+        RETURN_IF_ERROR(reader.read(part, buffer_));
         constexpr float kImpossible = 1e30F;
-        for (int v = 0; v < rows; ++v) {
+        for (int v = 0; v < part.rows; ++v) {
             const int row = isFlipped_ ? window.rows - 1 - (j0 - firstRow + v) : j0 - firstRow + v;
             float* to = out + static_cast<std::ptrdiff_t>(row) * window.columns + (i0 - window.i);
-            const float* from = buffer_.data() + static_cast<std::ptrdiff_t>(v) * columns;
-            for (int u = 0; u < columns; ++u)
+            const float* from = buffer_.data() + static_cast<std::ptrdiff_t>(v) * part.columns;
+            for (int u = 0; u < part.columns; ++u)
                 if (to[u] != to[u] && std::abs(from[u]) < kImpossible)
                     to[u] = from[u];
         }
         return absl::OkStatus();
     }
 
-    std::vector<DemLayer> layers_;
+    std::vector<LayerReader> layers_;
     int reads_ = 0;
     bool isFlipped_;
     terrain::GridFrame frame_;

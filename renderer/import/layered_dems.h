@@ -25,10 +25,16 @@ struct DemLayer {
     std::vector<DemFile> files;  ///< one, or several of one grid, best first
     Dataset joined;              ///< null: of one
     Dataset warped;              ///< null: the file's own pixels
+    /// With what lies beside it, see rimmed_dem.h: by the others' own posts, by these with such
+    /// rims, and that warped. Null where nothing lies beside it.
+    Dataset rimmed;
+    Dataset twiceRimmed;
+    Dataset rimmedWarped;
+    int rimReach = 0;  ///< how many posts from where it has no data its rim may tell
     PixelBox box;
 
     GDALDatasetH source() const { return joined ? joined.get() : files.front().dataset.get(); }
-    GDALRasterBandH band() const { return GDALGetRasterBand(warped ? warped.get() : source(), 1); }
+    GDALDatasetH posts() const { return warped ? warped.get() : source(); }
 };
 
 /// Area of a pixel, below 0 where rows go towards lower y while columns go towards higher x.
