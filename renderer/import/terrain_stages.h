@@ -46,9 +46,11 @@ public:
 
     /// Whether finished stages are kept at all.
     bool areKept() const { return journal_.has_value(); }
-    /// Whether the same command could go on after this outcome.
+    /// Whether the same command could go on after this outcome: not with a scratch that has lost
+    /// something.
     bool goesOnLater(const absl::Status& outcome) const {
-        return areKept() && !outcome.ok() && !absl::IsInvalidArgument(outcome);
+        return areKept() && !outcome.ok() && !absl::IsInvalidArgument(outcome) &&
+               !absl::IsDataLoss(scratch_->status());
     }
 
     /// What came of the job, after its last stage. Scratch file and journal go, even if a killed

@@ -14,14 +14,15 @@ using terrain::TextureId;
 TexelStore::TexelStore(const terrain::TexturePyramid& pyramid, terrain::Scratch& scratch)
     : pyramid_(pyramid), scratch_(scratch) {
     for (int level = 1; level < pyramid.levels(); ++level)
-        levels_.push_back(
-            scratch.reserve(kPieceBytes * static_cast<std::uint64_t>(pyramid.tilesX(level - 1)) *
-                            static_cast<std::uint64_t>(pyramid.tilesY(level - 1))));
+        levels_.push_back(scratch.reserve(
+            kPieceBytes, static_cast<std::uint64_t>(pyramid.tilesX(level - 1)) *
+                             static_cast<std::uint64_t>(pyramid.tilesY(level - 1))));
 }
 
 std::uint64_t TexelStore::placeOf(int level, std::int64_t pieceX, std::int64_t pieceY) const {
     return levels_[static_cast<std::size_t>(level - 1)] +
-           kPieceBytes * static_cast<std::uint64_t>(pieceY * pyramid_.tilesX(level - 1) + pieceX);
+           terrain::Scratch::stride(kPieceBytes) *
+               static_cast<std::uint64_t>(pieceY * pyramid_.tilesX(level - 1) + pieceX);
 }
 
 void TexelStore::write(const TextureId& tile, std::span<const fabric::Rgba> texels) {

@@ -15,6 +15,7 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include "fabric/status.h"
 
@@ -90,6 +91,19 @@ SparePieces& sparePieces() {
     return spare;
 }
 
+/// Never 0, which stands for none; a piece's at another place is another.
+std::uint64_t checksumOf(std::uint64_t place, std::span<const std::byte> piece) {
+    return std::max<std::uint64_t>(1, XXH64(piece.data(), piece.size(), place));
+}
+
+std::span<std::byte> bytesOf(std::uint64_t& checksum) {
+    return std::as_writable_bytes(std::span(&checksum, 1));
+}
+
+bool isZeros(std::span<const std::byte> bytes) {
+    return std::ranges::all_of(bytes, [](std::byte b) { return b == std::byte{0}; });
+}
+
 }  // namespace
 
 std::shared_ptr<std::byte[]> Scratch::newPiece(std::size_t bytes) {
@@ -110,10 +124,10 @@ Scratch::~Scratch() {
     for (Shard& shard : shards_) shard.byUse.clear();
 }
 
-std::uint64_t Scratch::reserve(std::uint64_t bytes) {
+std::uint64_t Scratch::reserve(std::size_t bytes, std::uint64_t pieces) {
     constexpr std::uint64_t kAlignment = 4096;
     const std::uint64_t place = reserved_;
-    reserved_ += (bytes + kAlignment - 1) / kAlignment * kAlignment;
+    reserved_ += (stride(bytes) * pieces + kAlignment - 1) / kAlignment * kAlignment;
     return place;
 }
 
@@ -154,8 +168,10 @@ void Scratch::clear(std::uint64_t place, std::size_t bytes) {
     forget(place);
     const std::shared_ptr<std::byte[]> data = newPiece(bytes);
     const std::span<std::byte> all(data.get(), bytes);
-    load(place, all);
-    if (std::ranges::count(all, std::byte{0}) == std::ssize(all))
+    loadBytes(place, all);
+    std::uint64_t checksum = 0;
+    loadBytes(place + bytes, bytesOf(checksum));
+    if (checksum == 0 && isZeros(all))
         return;
     std::ranges::fill(all, std::byte{0});
     write(place, data, bytes);
@@ -205,27 +221,44 @@ int Scratch::file(int flags) {
 }
 
 void Scratch::store(std::uint64_t place, const Piece& data, std::size_t bytes) {
-    const std::byte* next = data.get();
-    std::size_t left = bytes;
-    auto offset = static_cast<off_t>(place);
-    while (left > 0) {
-        const ssize_t done = pwrite(file(O_CREAT), next, left, offset);
-        if (done < 0 && errno == EINTR)
-            continue;
-        if (done <= 0)
-            return fail("scratch file cannot be written");
-        next += done;
-        left -= static_cast<std::size_t>(done);
-        offset += done;
-    }
-    const std::uint64_t end = place + bytes;
+    std::uint64_t checksum = checksumOf(place, {data.get(), bytes});
+    storeBytes(place, {data.get(), bytes});
+    storeBytes(place + bytes, bytesOf(checksum));
+    const std::uint64_t end = place + stride(bytes);
     std::uint64_t known = stored_;
     while (known < end && !stored_.compare_exchange_weak(known, end)) {
     }
 }
 
-/// What was never written reads as zeros, as holes of a file do, also beyond its end.
+void Scratch::storeBytes(std::uint64_t place, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t done =
+            pwrite(file(O_CREAT), bytes.data(), bytes.size(), static_cast<off_t>(place));
+        if (done < 0 && errno == EINTR)
+            continue;
+        if (done <= 0)
+            return fail("scratch file cannot be written");
+        bytes = bytes.subspan(static_cast<std::size_t>(done));
+        place += static_cast<std::uint64_t>(done);
+    }
+}
+
+/// A hole of the file has neither a piece nor a checksum.
 void Scratch::load(std::uint64_t place, std::span<std::byte> out) {
+    loadBytes(place, out);
+    std::uint64_t checksum = 0;
+    loadBytes(place + out.size(), bytesOf(checksum));
+    if (checksum == 0 ? isZeros(out) : checksum == checksumOf(place, out))
+        return;
+    fail(absl::DataLossError(fmt::format(
+        "{}: scratch file has something else than what was written to it; see that nothing else "
+        "writes there, then run the same command again",
+        path_)));
+    std::ranges::fill(out, std::byte{0});
+}
+
+/// What was never written reads as zeros, as holes of a file do, also beyond its end.
+void Scratch::loadBytes(std::uint64_t place, std::span<std::byte> out) {
     const std::uint64_t stored = stored_;  // of old: others write more meanwhile
     std::size_t have = 0;
     while (have < out.size() && (file() >= 0 || errno != ENOENT)) {

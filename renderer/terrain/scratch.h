@@ -22,7 +22,8 @@ namespace eyrie::terrain {
 ///
 /// Any thread may read and write any piece. A failure of the disk is kept: reads then give zeros,
 /// and status() says what happened; whoever fills or uses a scratch looks there before going on.
-/// What was never written reads as zeros, too; what was and is no longer in the file is a failure.
+/// What was never written reads as zeros, too. In the file each piece has a checksum behind it:
+/// that there is something else than what was written, or nothing any more, is a failure, DataLoss.
 class Scratch {
 public:
     using Piece = std::shared_ptr<const std::byte[]>;
@@ -34,8 +35,12 @@ public:
     /// Leaves the file where it is.
     ~Scratch();
 
-    /// Room for `bytes`, as the place of its first byte. The same calls give the same places.
-    std::uint64_t reserve(std::uint64_t bytes);
+    /// Room for pieces of `bytes` each, as the place of the first one; the others follow, each
+    /// stride(bytes) farther. The same calls give the same places.
+    std::uint64_t reserve(std::size_t bytes, std::uint64_t pieces = 1);
+    static constexpr std::uint64_t stride(std::size_t bytes) {
+        return bytes + sizeof(std::uint64_t);
+    }
     /// Goes on with the file of an earlier scratch, whose last flush said that it has `bytes`.
     /// False where it does not: it is of no use, and not read. Before any piece is read or written.
     bool takeUp(std::uint64_t bytes);
@@ -83,7 +88,9 @@ private:
     void storeDirty(Shard& shard);
     void keep(Shard& shard, Entry entry);
     void store(std::uint64_t place, const Piece& data, std::size_t bytes);
+    void storeBytes(std::uint64_t place, std::span<const std::byte> bytes);
     void load(std::uint64_t place, std::span<std::byte> out);
+    void loadBytes(std::uint64_t place, std::span<std::byte> out);
     int file(int flags = 0);
     void fail(const char* what);
     void fail(absl::Status status);

@@ -46,8 +46,8 @@ public:
           rows_(rows),
           tilesX_(tilesOver(columns)),
           tilesY_(tilesOver(rows)),
-          place_(scratch.reserve(kTileBytes * static_cast<std::uint64_t>(tilesX_) *
-                                 static_cast<std::uint64_t>(tilesY_))) {}
+          place_(scratch.reserve(kTileBytes, static_cast<std::uint64_t>(tilesX_) *
+                                                 static_cast<std::uint64_t>(tilesY_))) {}
 
     std::int32_t columns() const { return columns_; }
     std::int32_t rows() const { return rows_; }
@@ -85,7 +85,7 @@ public:
     }
 
 private:
-    static constexpr std::uint64_t kTileBytes = kRasterTileValues * sizeof(T);
+    static constexpr std::size_t kTileBytes = kRasterTileValues * sizeof(T);
 
     static std::int32_t tilesOver(std::int32_t posts) {
         return std::max(1, (posts - 1 + kRasterTileCells - 1) / kRasterTileCells);
@@ -95,8 +95,8 @@ private:
         return std::clamp((post - 1) / kRasterTileCells, 0, tiles - 1);
     }
     std::uint64_t placeOf(std::int32_t x, std::int32_t y) const {
-        return place_ +
-               kTileBytes * (static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(tilesX_) +
+        return place_ + Scratch::stride(kTileBytes) *
+                            (static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(tilesX_) +
                              static_cast<std::uint64_t>(x));
     }
     template <typename Visit>

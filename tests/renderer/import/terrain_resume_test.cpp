@@ -235,6 +235,28 @@ TEST_F(TerrainResume, StartsOverWhereTheScratchIsNoLongerWhole) {
     }
 }
 
+/// As long as before, so that it looks whole.
+TEST_F(TerrainResume, SaysThatTheScratchWasOverwrittenAndStartsOverThen) {
+    const std::string whole = folder_.path("whole.eyt");
+    ASSERT_TRUE(import(whole, {}, {}).ok());
+    const std::string out = folder_.path("a.eyt");
+    for (const char* stage : {"measuring", "thinning"}) {
+        ASSERT_FALSE(importUntil(stage, out).ok());
+        const std::string scratch = out + ".scratch";
+        const std::string others(std::filesystem::file_size(scratch), '\x5a');
+        std::ofstream(scratch, std::ios::binary) << others;
+        const absl::Status status = import(out);
+        EXPECT_TRUE(absl::IsDataLoss(status)) << status;
+        EXPECT_THAT(status.ToString(), HasSubstr(scratch + ": scratch file has something else"));
+        EXPECT_THAT(status.ToString(), testing::Not(HasSubstr("goes on from there")));
+        EXPECT_EQ(folder_.files(), std::vector<std::string>{"whole.eyt"}) << stage;
+        ASSERT_TRUE(importUntil("never", out).ok());
+        EXPECT_EQ(begun_.front(), "reading");
+        EXPECT_EQ(test::contents(out), test::contents(whole));
+        std::filesystem::remove(out);
+    }
+}
+
 TEST_F(TerrainResume, SaysWhatIsWrongWithTheScratchFolder) {
     const absl::Status status = import(folder_.path("a.eyt"), {},
                                        {.memoryBytes = 1, .scratchFolder = folder_.path("none")});

@@ -3,6 +3,8 @@
 
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -75,7 +77,7 @@ TEST(Scratch, TakesNoRoomForZerosAndLeavesNothingOfAnothersThere) {
         else
             for (const std::uint64_t place : {used, unused}) scratch.clear(place, 5000);
         ASSERT_TRUE(scratch.flush().ok());
-        EXPECT_EQ(std::filesystem::file_size(path), used + 5000);
+        EXPECT_EQ(std::filesystem::file_size(path), used + Scratch::stride(5000));
         EXPECT_EQ(static_cast<int>(scratch.read(used, 5000)[5]), isAnothers ? 3 : 0);
         EXPECT_EQ(static_cast<int>(scratch.read(unused, 5000)[5]), 0);
     }
@@ -91,7 +93,7 @@ TEST(Scratch, StoresNoPieceThatIsForgotten) {
         scratch.write(place, pieceOf(5000, 3), 5000);
     scratch.forget(forgotten);
     ASSERT_TRUE(scratch.flush().ok());
-    EXPECT_EQ(std::filesystem::file_size(path), kept + 5000);
+    EXPECT_EQ(std::filesystem::file_size(path), kept + Scratch::stride(5000));
     EXPECT_EQ(static_cast<int>(scratch.read(forgotten, 5000)[5]), 0);
     std::filesystem::remove(path);
 }
@@ -106,7 +108,7 @@ TEST(Scratch, GoesOnOnlyWithAFileThatHasAllThatWasFlushed) {
         ASSERT_TRUE(bytes.ok()) << bytes.status();
         flushed = *bytes;
     }
-    EXPECT_EQ(flushed, 5000U);
+    EXPECT_EQ(flushed, Scratch::stride(5000));
     {
         Scratch scratch(path, 0);
         ASSERT_TRUE(scratch.takeUp(flushed));
@@ -131,6 +133,44 @@ TEST(Scratch, FailsWhereWhatWasWrittenIsNoLongerThere) {
     EXPECT_TRUE(absl::IsDataLoss(scratch.status())) << scratch.status();
     EXPECT_NE(scratch.status().ToString().find(path), std::string::npos);
     std::filesystem::remove(path);
+}
+
+/// A bit of a piece, another piece, and one of a scratch that has these pieces elsewhere.
+TEST(Scratch, FailsWhereSomethingElseIsThanWhatWasWritten) {
+    const std::string path = freshPath();
+    const auto bytesAt = [&](std::uint64_t place, std::size_t count) {
+        std::string bytes(count, 0);
+        std::ifstream file(path, std::ios::binary);
+        file.seekg(static_cast<std::streamoff>(place)).read(bytes.data(), std::ssize(bytes));
+        return bytes;
+    };
+    for (const bool isMoved : {false, true}) {
+        Scratch scratch(path, 0);
+        const std::uint64_t first = scratch.reserve(5000, 2);
+        const std::uint64_t second = first + Scratch::stride(5000);
+        for (const std::uint64_t place : {first, second})
+            scratch.write(place, pieceOf(5000, place == first ? 3 : 4), 5000);
+        ASSERT_TRUE(scratch.flush().ok());
+        std::string bytes = bytesAt(second, Scratch::stride(5000));
+        if (!isMoved) {
+            bytes = bytesAt(first, Scratch::stride(5000));
+            bytes[4321] ^= 1;
+        }
+        {
+            std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+            file.seekp(static_cast<std::streamoff>(first)).write(bytes.data(), std::ssize(bytes));
+        }
+        Scratch later(path, 0);
+        ASSERT_EQ(later.reserve(5000, 2), first);
+        ASSERT_TRUE(later.takeUp(second + Scratch::stride(5000)));
+        EXPECT_EQ(static_cast<int>(later.read(second, 5000)[5]), 4);
+        EXPECT_TRUE(later.status().ok()) << later.status();
+        EXPECT_EQ(static_cast<int>(later.read(first, 5000)[5]), 0);
+        EXPECT_TRUE(absl::IsDataLoss(later.status())) << later.status();
+        EXPECT_NE(later.status().ToString().find(path + ": scratch file has something else"),
+                  std::string::npos);
+        std::filesystem::remove(path);
+    }
 }
 
 /// What is flushed may leave memory at the same time, for what is written meanwhile.
