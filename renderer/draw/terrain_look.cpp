@@ -44,10 +44,12 @@ effects::TerrainEffect::Variant TerrainLook::variantFor(const FrameState& frame,
 void TerrainLook::use(const effects::TerrainEffect& program, const fabric::Mat4& worldFromObject,
                       const FrameState& frame) {
     const fabric::Look& look = frame.look;
-    // Upside down, the side that was below faces up.
-    if (look.exaggeration < 0)
-        program.worldFromNormal(-glm::mat3(glm::inverseTranspose(
-            fabric::Mat3(fabric::exaggerated(worldFromObject, look.exaggeration)))));
+    // Of a mirror image that is upside down, the side that was below faces up. What is turned over
+    // without being mirrored is seen from below.
+    const fabric::Mat3 worldFromNormal = glm::inverseTranspose(
+        fabric::Mat3(fabric::exaggerated(worldFromObject, look.exaggeration)));
+    if (glm::determinant(worldFromNormal) < 0 && worldFromNormal[2].z < 0)
+        program.worldFromNormal(-glm::mat3(worldFromNormal));
     program.slopeShading(static_cast<float>(look.slopeShading));
     program.saturation(static_cast<float>(look.saturation));
     program.tintShare(look.levelTint || look.rangeTint ? kTintShare : frame.colour ? 1.0F : 0.0F);

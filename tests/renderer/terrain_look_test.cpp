@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "fabric/frustum.h"
@@ -23,8 +24,13 @@ class TerrainLookTest : public testing::Test {
 protected:
     void SetUp() override {
         renderer_ = test::makeRenderer();
+        ASSERT_NO_FATAL_FAILURE(open(fabric::Mat4(1.0)));
+    }
+
+    void open(const fabric::Mat4& worldFromTerrain) {
         auto scene = test::sampleScene(test::SampleKind::Terrain);
         ASSERT_TRUE(scene.ok()) << scene.status();
+        scene->objects.front().worldFromObject = worldFromTerrain;
         auto info = renderer_->openScene(*scene);
         ASSERT_TRUE(info.ok()) << info.status();
         info_ = *info;
@@ -199,6 +205,35 @@ TEST_F(TerrainLookTest, UpsideDownIsLitFromAboveAsWell) {
     const fabric::Image inverted = draw({.exaggeration = -1}, from).image;
     EXPECT_GT(covered(inverted), kWidth * kHeight / 10U);
     EXPECT_NEAR(brightness(inverted) / brightness(upright), 1, 0.2);
+}
+
+/// However it is said: by the look, by the scene, or in part by either.
+TEST_F(TerrainLookTest, TheSameSurfaceIsLitTheSame) {
+    const auto scaled = [](double x, double y, double z) {
+        return fabric::Mat4(glm::scale(fabric::Mat4(1.0), fabric::Vec3(x, y, z)));
+    };
+    struct Case {
+        const char* name;
+        fabric::Mat4 plain, other;
+        double plainExaggeration, otherExaggeration;
+    };
+    for (const Case& c :
+         {Case{"upside down by the scene", scaled(1, 1, 1), scaled(1, 1, -1), -1, 1},
+          Case{"upside down twice", scaled(1, 1, 1), scaled(1, 1, -2), 2, -1},
+          Case{"turned over", scaled(1, -1, 1), scaled(1, -1, -1), 1, -1},
+          Case{"through a point", scaled(-1, -1, 1), scaled(-1, -1, -1), -1, 1}}) {
+        ASSERT_NO_FATAL_FAILURE(open(c.plain));
+        fabric::Camera from = camera(0.5);
+        if (c.plainExaggeration < 0) {
+            from.eye.z -= 2 * info_.bounds.centre().z;
+            from.target.z = -from.target.z;
+        }
+        const fabric::Image plain = draw({.exaggeration = c.plainExaggeration}, from).image;
+        ASSERT_NO_FATAL_FAILURE(open(c.other));
+        const fabric::Image other = draw({.exaggeration = c.otherExaggeration}, from).image;
+        EXPECT_GT(covered(plain), kWidth * kHeight / 10U) << c.name;
+        EXPECT_EQ(differing(plain, other), 0U) << c.name;
+    }
 }
 
 TEST_F(TerrainLookTest, ALookOutOfItsRangesIsRefused) {
