@@ -219,14 +219,16 @@ void addMeasuringOptions(CLI::App& command, Options& options) {
                     "see below")
         ->type_name("NAME|FILE")
         ->capture_default_str();
-    command.add_option("--tau", options.taus, "Screen-space errors to allow, in pixels")
+    command
+        .add_option("--tau", options.taus,
+                    "Screen-space errors to allow, in pixels, separated by commas")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->capture_default_str();
     command
         .add_option("--budget-ms", options.budgets,
-                    "Frame times to hold, in ms, by drawing coarser than the least --tau as needed;"
-                    " then taus only where they are given")
+                    "Frame times to hold, in ms, separated by commas, by drawing coarser than the "
+                    "least --tau as needed; then taus only where they are given")
         ->delimiter(',')
         ->allow_extra_args(false);
     command.add_option("--size", options.size, "Of the picture, in pixels")
@@ -241,7 +243,7 @@ void addMeasuringOptions(CLI::App& command, Options& options) {
     addOcclusionOption(command, options.occlusion);
     command
         .add_option("--renderers", options.renderers,
-                    "Numbers of processes to draw with; 0: draw in this one")
+                    "Numbers of processes to draw with, separated by commas; 0: draw in this one")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->check(CLI::Range(0, RendererProcesses::kMaxCount))
