@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+import { create } from "@bufbuild/protobuf";
 import { describe, expect, it, vi } from "vitest";
 import type { Camera } from "./camera/camera";
+import { SightSchema } from "./protocol/gen/eyrie/v1/frame_pb";
+import { SeenAreaSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
 import { State } from "./state";
 import { Steering } from "./steering";
 import type { WalkerEvents } from "./walker";
@@ -15,6 +18,7 @@ const at = (x: number, z: number): Camera => ({
 });
 
 describe("Steering", () => {
+  const clicked = vi.fn();
   const known: WalkerEvents["ask"] = (from, to, samples, answered) => {
     answered({ from, to, heights: Array<number>(samples).fill(0) });
     return true;
@@ -24,7 +28,7 @@ describe("Steering", () => {
     const steering = new Steering({} as HTMLCanvasElement, state, {
       moved: () => {},
       changed: () => {},
-      clicked: () => {},
+      clicked,
       ask,
       isNewest: () => true,
       canvasSize: () => ({ width: 640, height: 360 }),
@@ -59,6 +63,18 @@ describe("Steering", () => {
       expect(steering.camera?.eye[2]).toBeCloseTo(z);
       expect(steering.camera?.target[2]).toBeCloseTo(z);
     }
+  });
+
+  it("clicks at the middle of what one eye sees, where two are beside each other", () => {
+    const { steering, state } = make();
+    steering.clickMiddle();
+    expect(clicked).toHaveBeenLastCalledWith({ x: 320, y: 180 }, false);
+    const half = (x: number) =>
+      create(SeenAreaSchema, { x, width: 0.5, height: 1, sight: create(SightSchema) });
+    const picture = { camera: at(0, 50), width: 640, height: 360, exaggeration: 1, hidden: [] };
+    state.shown.set({ ...picture, seen: [half(0), half(0.5)], isPacked: true });
+    steering.clickMiddle();
+    expect(clicked).toHaveBeenLastCalledWith({ x: 160, y: 180 }, false);
   });
 
   it("does not walk where no ground can be asked for", () => {

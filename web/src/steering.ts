@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Aim } from "./aim";
+import { aimAt, middleOf } from "./aim";
 import type { Camera, Vec3 } from "./camera/camera";
 import { add, isUsable } from "./camera/camera";
 import type { CameraHolder } from "./camera/controls";
@@ -239,8 +241,13 @@ export class Steering implements CameraHolder {
 
   /** Clicks at the middle of the picture, for those without a pointer. */
   clickMiddle(): void {
-    const { width, height } = this.events.canvasSize();
-    this.clicked({ x: width / 2, y: height / 2 });
+    this.clicked(middleOf(this.state.shown.value, this.events.canvasSize()));
+  }
+
+  aimAt(at: Point): Aim | undefined {
+    if (this.camera === null) return undefined;
+    const { fovyDegrees } = this.camera;
+    return aimAt(this.state.shown.value, at, this.events.canvasSize(), fovyDegrees);
   }
 
   /**

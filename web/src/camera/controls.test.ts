@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import type { Aim } from "../aim";
 import { onKeys } from "../panel/keys";
+import type { Camera } from "./camera";
 import { Controls } from "./controls";
 import type { CameraHolder } from "./controls";
+import { pan, zoom } from "./orbit";
 
 class FakeWindow extends EventTarget {
   readonly press = (code: string, key: string, isTaken = false): void => {
@@ -102,5 +105,67 @@ describe("a key", () => {
   it("that something else has taken does nothing more", () => {
     page.press("KeyO", "o", true);
     expect(did).toEqual([]);
+  });
+});
+
+describe("the wheel and drags", () => {
+  const camera: Camera = { eye: [0, -10, 0], target: [0, 0, 0], up: [0, 0, 1], fovyDegrees: 45 };
+  const limits = { min: 0.01, max: 1000 };
+  let canvas: EventTarget;
+  let moved: Camera | undefined;
+  let aim: Aim | undefined;
+  const send = (type: string, values: object): void => {
+    const at = { clientX: 500, clientY: 100, button: 2, pointerId: 1, timeStamp: 1 };
+    const event = new Event(type, { cancelable: true });
+    for (const [key, value] of Object.entries({ ...at, ...values }))
+      Object.defineProperty(event, key, { value });
+    canvas.dispatchEvent(event);
+  };
+  const wheel = (): Camera | undefined => {
+    send("wheel", { deltaMode: 0, deltaY: -100 });
+    return moved;
+  };
+  const drag = (): Camera | undefined => {
+    send("pointerdown", {});
+    send("pointermove", { clientX: 530, clientY: 90 });
+    send("pointerup", {});
+    return moved;
+  };
+  let controls: Controls;
+
+  beforeEach(() => {
+    vi.stubGlobal("window", new EventTarget());
+    canvas = Object.assign(new EventTarget(), {
+      clientHeight: 300,
+      getBoundingClientRect: () => ({ left: 100, top: 0, width: 800, height: 300 }),
+      focus: () => {},
+      setPointerCapture: () => {},
+    });
+    const holder: Partial<CameraHolder> = {
+      camera,
+      limits,
+      isWalking: false,
+      isFlying: false,
+      move: (to) => (moved = to),
+      dragEnded: () => {},
+      aimAt: () => aim,
+    };
+    controls = new Controls(canvas as HTMLCanvasElement, holder as CameraHolder);
+  });
+  afterEach(() => {
+    controls.close();
+    vi.unstubAllGlobals();
+  });
+
+  it("go by the canvas in a picture of the camera's own", () => {
+    aim = undefined;
+    expect(wheel()).toEqual(zoom(camera, Math.exp(-0.15), 0, -50, 300, limits));
+    expect(drag()).toEqual(pan(camera, 30, -10, 300));
+  });
+
+  it("go by the view that they are on in another", () => {
+    aim = { x: 7, y: -9, perPixel: { x: 2, y: 3 } };
+    expect(wheel()).toEqual(zoom(camera, Math.exp(-0.15), 7, -9, 300, limits));
+    expect(drag()).toEqual(pan(camera, 60, -30, 300));
   });
 });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From pointer, wheel and keys to a camera. The geometry is in orbit.ts, fly.ts and touch.ts.
+import type { Aim } from "../aim";
 import type { Camera } from "./camera";
 import { isCommand, letterOf } from "./commands";
 import { isScrolled, isSheetOpen, isText, isTyping } from "./typing";
@@ -22,6 +23,8 @@ export interface CameraHolder {
   /** A click, or a tap, that dragged nothing; offset from the canvas's upper left corner. */
   clicked(at: Point): void;
   doubleClicked(at: Point): void;
+  /** What hands at a point of the canvas are on; undefined where the picture is the camera's own. */
+  aimAt(at: Point): Aim | undefined;
   readonly isFlying: boolean;
   setFlying(isFlying: boolean): void;
   readonly isWalking: boolean;
@@ -106,15 +109,32 @@ export class Controls {
     return this.pointers.size > 0;
   }
 
-  /** Offset from the canvas's centre, in CSS pixels. */
-  private fromCentre(point: Point): Point {
+  /** What hands at a point of the window are on. */
+  private aimAt(point: Point): Aim {
     const box = this.canvas.getBoundingClientRect();
-    return { x: point.x - box.left - box.width / 2, y: point.y - box.top - box.height / 2 };
+    const fromCentre = {
+      x: point.x - box.left - box.width / 2,
+      y: point.y - box.top - box.height / 2,
+    };
+    const aim = this.holder.aimAt(this.onCanvas(point));
+    return aim ?? { ...fromCentre, perPixel: { x: 1, y: 1 } };
+  }
+
+  /** The scene follows a hand at `from` by so many pixels. */
+  private panned(camera: Camera, from: Point, dx: number, dy: number): Camera {
+    const { perPixel } = this.aimAt(from);
+    return pan(camera, dx * perPixel.x, dy * perPixel.y, this.height);
   }
 
   private onCanvas(point: Point): Point {
     const box = this.canvas.getBoundingClientRect();
     return { x: point.x - box.left, y: point.y - box.top };
+  }
+
+  /** Of the canvas, in the window. */
+  private get middle(): Point {
+    const box = this.canvas.getBoundingClientRect();
+    return { x: box.left + box.width / 2, y: box.top + box.height / 2 };
   }
 
   private get height(): number {
@@ -167,7 +187,7 @@ export class Controls {
     const dy = after.y - before.y;
     if (dx === 0 && dy === 0) return;
     this.change(time, (camera) => {
-      if (before.isPan && !this.holder.isWalking) return pan(camera, dx, dy, this.height);
+      if (before.isPan && !this.holder.isWalking) return this.panned(camera, before, dx, dy);
       const [azimuth, elevation] = [-dx * radiansPerPixel, dy * radiansPerPixel];
       // The scene follows the pointer when orbiting; the view does when looking around.
       if (this.looksAround) return look(camera, azimuth, -elevation);
@@ -182,9 +202,9 @@ export class Controls {
       const seconds = Math.max(Math.abs(dx), Math.abs(dy)) * walkSecondsPerPixel;
       return this.holder.walk(keysOfFingers(dx, dy), false, seconds, time);
     }
-    const { x, y } = this.fromCentre(centre);
+    const { x, y } = this.aimAt(centre);
     this.change(time, (camera) => {
-      const shifted = pan(camera, dx, dy, this.height);
+      const shifted = this.panned(camera, centre, dx, dy);
       const nearer = zoom(shifted, factor, x, y, this.height, this.holder.limits);
       // The scene turns with the fingers, seen from above or from below.
       return orbit(nearer, camera.eye[2] >= camera.target[2] ? turn : -turn, 0);
@@ -195,7 +215,7 @@ export class Controls {
     event.preventDefault();
     const unit = event.deltaMode === 0 ? 1 : event.deltaMode === 1 ? pixelsPerLine : this.height;
     const step = Math.max(-largestWheelStep, Math.min(largestWheelStep, event.deltaY * unit));
-    const { x, y } = this.fromCentre({ x: event.clientX, y: event.clientY });
+    const { x, y } = this.aimAt({ x: event.clientX, y: event.clientY });
     this.zoomBy(Math.exp(step * zoomPerWheelPixel), x, y, event.timeStamp);
   }
 
@@ -267,7 +287,7 @@ export class Controls {
     if (x === 0 && y === 0) return false;
     this.change(event.timeStamp, (camera) => {
       if (event.shiftKey && !this.holder.isWalking)
-        return pan(camera, -x * pixelsPerKey, -y * pixelsPerKey, this.height);
+        return this.panned(camera, this.middle, -x * pixelsPerKey, -y * pixelsPerKey);
       // To the right: the eye goes there, or looks there.
       if (this.looksAround) return look(camera, -x * radiansPerKey, -y * radiansPerKey);
       return orbit(camera, x * radiansPerKey, -y * radiansPerKey);
