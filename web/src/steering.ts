@@ -54,7 +54,7 @@ export class Steering implements CameraHolder {
   private walked: Camera | null = null;
   /** The last camera of a flight. */
   private flown: Camera | null = null;
-  /** Hands steer on from a flight under ground, and have not come out of it. */
+  /** Hands steer on from a flight, or from another's view, under ground, and have not come out of it. */
   private staysUnderground = false;
   private readonly unwatch: readonly (() => void)[];
 
@@ -179,12 +179,17 @@ export class Steering implements CameraHolder {
     this.events.moved(inputTime);
   }
 
-  /** To a view that does not go on from the last one. */
-  jumpTo(camera: Camera, inputTime?: number): void {
+  /** To a view that does not go on from the last one; one that is under ground may have it so. */
+  jumpTo(camera: Camera, inputTime?: number, staysUnderground = false): void {
     this.flown = null;
-    this.staysUnderground = false;
+    this.staysUnderground = staysUnderground;
     this.callOffWalk();
     this.move(camera, inputTime);
+  }
+
+  /** The camera is led no more, and stays where it is, until it comes out of the ground if it is there. */
+  stayUnderground(): void {
+    this.staysUnderground = true;
   }
 
   /** To a camera of a flight, which may have been recorded walking: nothing lifts it. */

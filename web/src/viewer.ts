@@ -211,10 +211,11 @@ export class Viewer {
     return this.sender.waitingSince() !== undefined || this.state.connection.value.kind === "lost";
   }
 
-  show(view: SharedView): void {
+  /** `staysUnderground`: until the eye comes out, whatever the view's look says. */
+  show(view: SharedView, staysUnderground = false): void {
     applySettings(this.state, view);
     this.leaveOutAbsent();
-    this.steering.jumpTo(view.camera, performance.now());
+    this.steering.jumpTo(view.camera, performance.now(), staysUnderground);
   }
 
   /** A link may be of another scene; it can be held against this one once that is there. */
@@ -307,7 +308,9 @@ export class Viewer {
       this.isAsking = false;
       this.state.notice.set(session.note);
     }
+    const hasWatched = this.state.isWatching;
     this.state.session.set(session);
+    if (hasWatched && !this.state.isWatching) this.takeOver();
     this.placeChanged();
     const { min, max } = session.sceneBounds ?? {};
     if (min !== undefined && max !== undefined)
@@ -328,6 +331,17 @@ export class Viewer {
     this.state.profile.set(null);
     if (this.state.isWatching) return;
     this.state.look.set({ ...this.state.look.value, hidden: [], objects: [], frozen: null });
+  }
+
+  /**
+   * Who led may have walked or flown under ground: what is seen stays there until the eye comes out,
+   * and *Underground* is no setting of this page for that.
+   */
+  private takeOver(): void {
+    const look = this.state.look.value;
+    if (!look.underground) return;
+    this.steering.stayUnderground();
+    this.state.look.set({ ...look, underground: false });
   }
 
   /** What was sent while another leads is not answered; who leads now has to say where to. */
@@ -391,7 +405,9 @@ export class Viewer {
     this.sender.forgetLast();
     if (queryOf(view.output) !== queryOf(this.state.output.value))
       this.state.output.set(view.output);
-    this.show(view);
+    // As one takes over.
+    const underground = this.state.look.value.underground && view.look.underground;
+    this.show({ ...view, look: { ...view.look, underground } }, view.look.underground);
   }
 
   private noteLed({ camera: asked, look, ...rest }: LedView, frame: Frame): void {
