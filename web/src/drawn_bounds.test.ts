@@ -2,7 +2,7 @@
 import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
 import { project } from "./camera/camera";
-import { homeOf, objectBounds, wholeBounds } from "./drawn_bounds";
+import { groundHeights, homeOf, objectBounds, wholeBounds } from "./drawn_bounds";
 import { SessionStateSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
 
 const box = (low: number, high: number) => ({
@@ -63,5 +63,15 @@ describe("The whole scene, as it is drawn", () => {
 
   it("without terrain is seen from where the server shows it", () => {
     expect(homeOf(sceneOf(mesh), 10, 16 / 9)).toEqual(homeOf(scene, 1, 16 / 9));
+  });
+});
+
+describe("The ground", () => {
+  it("is that of all terrains, whatever stands above or lies below; without one, of the scene", () => {
+    const lower = { bounds: box(-70, 30), heights: heights(-70, 30) };
+    expect(groundHeights(sceneOf(terrain, mesh))).toEqual([500, 4400]);
+    expect(groundHeights(sceneOf(mesh, terrain, lower))).toEqual([-70, 4400]);
+    expect(groundHeights(sceneOf(mesh))).toEqual([400, 4400]);
+    expect(groundHeights(create(SessionStateSchema, {}))).toBeUndefined();
   });
 });

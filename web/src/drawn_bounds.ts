@@ -33,6 +33,15 @@ export function wholeBounds(scene: Scene, exaggeration: number): Bounds | undefi
   return { min: [x, y, z], max: [right, back, top] };
 }
 
+/** The lowest and the highest ground, in metres; of all that there is in a scene without terrain. */
+export function groundHeights({ objects, sceneBounds }: Scene): [number, number] | undefined {
+  const terrains = objects.flatMap(({ heights }) => boundsOf(heights) ?? []);
+  const whole = boundsOf(sceneBounds);
+  const all = terrains.length > 0 || whole === undefined ? terrains : [whole];
+  if (all.length === 0) return undefined;
+  return [Math.min(...all.map(({ min }) => min[2])), Math.max(...all.map(({ max }) => max[2]))];
+}
+
 /** All of the scene in a picture of any shape, from where the server shows it first. */
 export function homeOf(scene: Scene, exaggeration: number, aspect: number): Camera | undefined {
   const [home, bounds] = [cameraOf(scene.home), wholeBounds(scene, exaggeration)];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How terrain is shown: height, colours, contour lines, and what the engine did.
+import { groundHeights } from "../drawn_bounds";
 import type { Colouring } from "../look";
 import { exaggerationAt, nextInterval, placeOf, suggestedInterval } from "../look";
 import type { State } from "../state";
@@ -16,10 +17,9 @@ const colourings: readonly (readonly [Colouring, string])[] = [
   ["bare", "Bare"],
 ];
 
-/** Of the scene's bounds. */
-const reliefOf = (state: State): number => {
-  const { min, max } = state.session.value?.sceneBounds ?? {};
-  return min !== undefined && max !== undefined ? max.z - min.z : 1000;
+const reliefOf = ({ session }: State): number => {
+  const [lowest, highest] = (session.value && groundHeights(session.value)) ?? [0, 1000];
+  return highest - lowest;
 };
 
 function colouringChoice(state: State): HTMLElement {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The editor of the elevation transfer function: a strip that shows it, and a row a primitive.
+import { groundHeights } from "../drawn_bounds";
 import type { Primitive, Shape, Unit } from "../look";
 import { defaultPrimitives, evaluate, fromHex, maxHeight, maxPrimitives, toHex } from "../look";
 import type { State } from "../state";
@@ -58,9 +59,8 @@ export function heightTyped(text: string, unit: Unit, least: number): number | u
 
 /** The lowest and the highest ground, in the look's unit. */
 export function groundOf({ look, session }: Pick<State, "look" | "session">): [number, number] {
-  const { min, max } = session.value?.sceneBounds ?? {};
-  const isKnown = look.value.unit === "metres" && min !== undefined && max !== undefined;
-  return isKnown ? [min.z, max.z] : [0, 1];
+  const known = look.value.unit === "metres" && session.value && groundHeights(session.value);
+  return known || [0, 1];
 }
 
 const stripWidth = 256;
