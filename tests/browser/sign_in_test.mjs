@@ -96,6 +96,11 @@ async function test(browser, started) {
       (await page.evaluate(() => window.eyrie)) === undefined,
     "and sees nothing before",
   );
+  const tools = await page.$$eval(".tools button", (all) => all.map(({ disabled }) => disabled));
+  const saysNothing = await page.locator("#status").isHidden();
+  check(saysNothing && tools.every(Boolean), "nor anything to press that does nothing");
+  await enter(page, " ");
+  check((await reason(page)).includes("wants a token"), "nothing typed in is no token");
 
   const wrong = randomBytes(16).toString("hex");
   await enter(page, wrong);
@@ -112,6 +117,7 @@ async function test(browser, started) {
   await page.evaluate((token) => (window.location.hash = `token=${token}`), tokens.view);
   await draws(page);
   check((await page.$(".sign-in")) === null, "a right one lets in");
+  check(await page.locator("#home").isEnabled(), "to all that there is");
   await checkKeptNowhere(page, tokens.view, "a viewer");
   check((await status(page, "GET", "api/v1/scene")) === 200, "who may look sees the scene");
   const scene = JSON.stringify({ objects: [] });

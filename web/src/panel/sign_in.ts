@@ -21,6 +21,13 @@ function takeToken(): string | undefined {
   return token;
 }
 
+/** What is not there before somebody is let in: all tools, and how things stand. */
+function showEmpty(isEmpty: boolean): void {
+  for (const button of document.querySelectorAll<HTMLButtonElement>(".tools button"))
+    button.disabled = isEmpty;
+  byId("status", HTMLElement).hidden = isEmpty;
+}
+
 /** Asks for a token until the server takes one, given here or by `entry` becoming another. */
 function askForToken(entry: Value<Entry>, show: (token: string) => void): Promise<void> {
   const message = byId("message", HTMLElement);
@@ -28,14 +35,17 @@ function askForToken(entry: Value<Entry>, show: (token: string) => void): Promis
   const input = make("input", "token");
   input.type = "password";
   input.autocomplete = "off";
+  input.required = true;
   input.setAttribute("aria-label", "Token");
-  const form = make("form", "message-box sign-in", reason, input, make("button", "", "Enter"));
+  const form = make("form", "message-box sign-in", reason, input, make("button", "small", "Enter"));
+  showEmpty(true);
   message.replaceChildren(form);
   message.hidden = false;
   input.focus();
   form.addEventListener("submit", (event) => {
     event.preventDefault();
-    show(input.value.trim());
+    const token = input.value.trim();
+    if (token !== "") show(token);
   });
   return new Promise((resolve) => {
     const end = entry.watch((now) => {
@@ -44,6 +54,7 @@ function askForToken(entry: Value<Entry>, show: (token: string) => void): Promis
         return;
       }
       end();
+      showEmpty(false);
       message.hidden = true;
       message.replaceChildren();
       resolve();
