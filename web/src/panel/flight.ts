@@ -134,7 +134,15 @@ function controls(deck: FlightDeck, open: () => void): HTMLElement {
   const togglePlaying = (): void => (is("playing") ? deck.stop() : deck.play());
   const record = button("Record", "Record what is flown, or end it (B)", toggleRecording);
   const play = button("Play", "Play the flight from here on, or stop (Y)", togglePlaying);
-  const badge = byId("recording", HTMLElement);
+  const badge = byId("recording", HTMLButtonElement);
+  const recorded = make("span", "");
+  badge.append(
+    recorded,
+    make("span", "by-keys", "; B ends it"),
+    make("span", "by-touch", "; touch here to end it"),
+  );
+  badge.title = "End the recording (B)";
+  badge.addEventListener("click", () => is("recording") && deck.stop());
   const update = (): void => {
     for (const [element, kind, names] of [
       [record, "recording", ["Record", "End recording"]],
@@ -144,7 +152,7 @@ function controls(deck: FlightDeck, open: () => void): HTMLElement {
       setText(element, names[Number(is(kind))] ?? "");
     }
     badge.hidden = !is("recording");
-    setText(badge, `Recording ${time(deck.seconds.value)}; B ends it`);
+    setText(recorded, `Recording ${time(deck.seconds.value)}`);
   };
   deck.activity.watch(update);
   deck.seconds.watch(update);
