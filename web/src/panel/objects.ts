@@ -61,6 +61,7 @@ function ownLook(state: State, object: number, name: string): Shown {
   colour.addEventListener("input", () => set({ colour: fromHex(colour.value) }));
   const isColoured = make("input", "");
   isColoured.type = "checkbox";
+  isColoured.setAttribute("aria-label", `One colour for ${name}`);
   isColoured.addEventListener("change", () =>
     set({ colour: isColoured.checked ? fromHex(colour.value) : null }),
   );

@@ -117,8 +117,10 @@ export function edited(
   return primitives.map((primitive, i) => (i === at ? { ...primitive, ...by } : primitive));
 }
 
+/** `of`: whose it is, for screen readers. */
 function heightField(
   name: string,
+  of: string,
   leastOf: (scale: Scale) => number,
   changed: (height: number) => void,
 ) {
@@ -132,12 +134,12 @@ function heightField(
   });
   const show = (height: number, shownIn: Unit): void => {
     unit = shownIn;
-    const { of, typed, digits, highest } = scales[unit];
+    const { of: measure, typed, digits, highest } = scales[unit];
     input.min = String(leastOf(scales[unit]) * typed);
     input.max = String(highest * typed);
     input.step = digits === 0 ? "1" : "any";
-    input.title = `${name}, ${of}`;
-    input.setAttribute("aria-label", input.title);
+    input.title = `${name}, ${measure}`;
+    input.setAttribute("aria-label", `${name} of ${of}, ${measure}`);
     // What is typed in and is no number leads back to the default value.
     input.value = input.defaultValue = typedHeight(height, unit);
   };
@@ -167,11 +169,13 @@ function makeRow(position: number, change: (by?: Partial<Primitive>) => void): R
   shape.addEventListener("change", () => change({ shape: shape.value as Shape }));
   const centre = heightField(
     "Centre",
+    `colour ${position}`,
     ({ lowest }) => lowest,
     (value) => change({ centre: value }),
   );
   const width = heightField(
     "Width from the centre",
+    `colour ${position}`,
     ({ narrowest }) => narrowest,
     (value) => change({ width: value }),
   );
