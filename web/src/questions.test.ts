@@ -101,13 +101,28 @@ describe("Questions", () => {
     expect(points()).toEqual([2]);
   });
 
-  it("that cannot be asked are said not to be", () => {
+  it("that cannot be asked are said not to be, until they can", () => {
     const state = new State();
     const socket = { pick: () => false, profile: () => false };
     const questions = new Questions(socket, state, () => {});
     questions.profile([0, 0, 0], [1, 0, 0]);
+    const picture = { camera, width: 64, height: 36, hidden: [], seen: null, isPacked: false };
+    state.shown.set({ ...picture, exaggeration: 1 });
+    questions.pick({ x: 32, y: 18 }, { width: 64, height: 36 }, false);
     const text = "The server cannot be asked now";
-    expect(state.profile.value).toEqual({ kind: "problem", text });
+    for (const { value } of [state.profile, state.pick])
+      expect(value).toEqual({ kind: "problem", text });
+    questions.opened();
+    for (const { value } of [state.profile, state.pick]) expect(value).toBeNull();
+  });
+
+  it("that were answered stay so when the connection opens again", () => {
+    const { state, questions, show, click, answer } = measuring();
+    show(1);
+    click();
+    answer();
+    questions.opened();
+    expect(state.pick.value?.kind).toBe("point");
   });
 
   it("of a double click measure nothing, whenever they are answered", () => {

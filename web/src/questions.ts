@@ -179,6 +179,12 @@ export class Questions {
     this.state.profile.set(profileOf(answer, asked.from, asked.to));
   }
 
+  /** The server can be asked again. */
+  opened(): void {
+    if (this.state.pick.value === cannotAsk) this.state.pick.set(null);
+    if (this.state.profile.value === cannotAsk) this.state.profile.set(null);
+  }
+
   /** No answers come any more. */
   lost(): void {
     this.groundAnswered(undefined);

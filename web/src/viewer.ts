@@ -283,6 +283,7 @@ export class Viewer {
 
   private opened(): void {
     this.state.connection.set({ kind: "connected" });
+    this.questions.opened();
     this.socket.tellAbilities(this.showsVideo);
     this.sentScreen = "";
     this.sendScreen();
