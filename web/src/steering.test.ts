@@ -3,7 +3,7 @@ import { create } from "@bufbuild/protobuf";
 import { describe, expect, it, vi } from "vitest";
 import type { Camera } from "./camera/camera";
 import { SightSchema } from "./protocol/gen/eyrie/v1/frame_pb";
-import { SeenAreaSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
+import { SeenAreaSchema, SessionStateSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
 import { State } from "./state";
 import { Steering } from "./steering";
 import type { WalkerEvents } from "./walker";
@@ -75,6 +75,18 @@ describe("Steering", () => {
     state.shown.set({ ...picture, seen: [half(0), half(0.5)], isPacked: true });
     steering.clickMiddle();
     expect(clicked).toHaveBeenLastCalledWith({ x: 160, y: 180 }, false);
+  });
+
+  it("neither walks nor flies for who watches, and says why", () => {
+    const { steering, state } = make();
+    const place = { leads: false, led: true };
+    state.session.set(create(SessionStateSchema, { place }));
+    for (const begin of ["setFlying", "setWalking"] as const) {
+      state.notice.set("");
+      steering[begin](true);
+      expect(state.notice.value).toContain("You watch this session");
+      expect([state.flying.value, state.walking.value]).toEqual([false, false]);
+    }
   });
 
   it("does not walk where no ground can be asked for", () => {

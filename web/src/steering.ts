@@ -98,6 +98,7 @@ export class Steering implements CameraHolder {
   }
 
   setFlying(isFlying: boolean): void {
+    if (isFlying && this.isWatching) return this.state.notice.set(this.watchingText);
     if (isFlying) this.state.walking.set(false);
     this.state.flying.set(isFlying);
   }

@@ -349,6 +349,7 @@ export class Viewer {
   private placeChanged(): void {
     if (this.state.isWatching) {
       this.state.walking.set(false);
+      this.state.flying.set(false);
       this.sender.forgetAll();
     } else if (this.led !== undefined) {
       this.led = undefined;
