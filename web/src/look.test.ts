@@ -175,6 +175,10 @@ describe("the panel's values", () => {
     expect(nextInterval(1, -1)).toBe(0);
     expect(nextInterval(0, -1)).toBe(0);
     expect(nextInterval(1000, 1)).toBe(1000);
+    // Of programs and links.
+    expect([nextInterval(30, 1), nextInterval(30, -1)]).toEqual([50, 25]);
+    expect([nextInterval(0.5, 1), nextInterval(0.5, -1)]).toEqual([1, 0]);
+    expect([nextInterval(5000, 1), nextInterval(5000, -1)]).toEqual([5000, 1000]);
   });
 
   it("are short", () => {

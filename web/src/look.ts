@@ -209,9 +209,11 @@ export function suggestedInterval(reliefMetres: number): number {
   return intervals.find((interval) => interval * 30 >= reliefMetres) ?? 1000;
 }
 
-/** The next interval up (+1) or down (-1); 0, for none, comes before the first. */
+/**
+ * The next interval up (+1) or down (-1), also from one between two or beyond the last; 0, for none,
+ * comes before the first.
+ */
 export function nextInterval(metres: number, step: 1 | -1): number {
-  const all = [0, ...intervals];
-  const at = all.findIndex((interval) => interval >= metres);
-  return all[Math.min(Math.max((at < 0 ? all.length : at) + step, 0), all.length - 1)] ?? 0;
+  if (step === 1) return intervals.find((interval) => interval > metres) ?? metres;
+  return intervals.filter((interval) => interval < metres).at(-1) ?? 0;
 }

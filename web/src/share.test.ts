@@ -89,6 +89,11 @@ describe("a link", () => {
     for (const metres of [0.0009, 100_001, -1]) expect(withContours(metres)).toBeUndefined();
   });
 
+  it("hides objects in whatever order it names them, and however often", () => {
+    const link = `${encodeView(plain)}&look=${encodeURIComponent('{"hidden":[4,1,4]}')}`;
+    expect(decodeView(link)?.look.hidden).toEqual([1, 4]);
+  });
+
   it("that is not one whole is none", () => {
     const good = encodeView(plain);
     for (const bad of [

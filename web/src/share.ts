@@ -147,7 +147,9 @@ function lookOf(text: string | undefined): Look | undefined {
     const isLook = Object.entries(parts).every(
       ([key, value]) => Object.hasOwn(isPart, key) && isPart[key as keyof Look](value),
     );
-    return isLook ? { ...defaultLook, ...(parts as Partial<Look>) } : undefined;
+    if (!isLook) return undefined;
+    const look = { ...defaultLook, ...(parts as Partial<Look>) };
+    return { ...look, hidden: [...new Set(look.hidden)].sort((a, b) => a - b) };
   } catch {
     return undefined;
   }

@@ -143,7 +143,10 @@ function numberField(
   input.placeholder = field.usual;
   input.addEventListener("change", () => {
     const change = changeOf(field, input.value);
-    if (typeof change === "string") return complain(change);
+    if (typeof change === "string") {
+      input.value = input.defaultValue;
+      return complain(change);
+    }
     input.defaultValue = input.value;
     tune(position, change);
   });

@@ -8,7 +8,7 @@ import { ObjectStateSchema } from "../protocol/gen/eyrie/v1/viewer_pb";
 import { ObjectKind, Shading } from "../protocol/messages";
 import { hasPlaces, hasRanges, rangeColour, sharesOf } from "./renderers";
 import { alone, objectText } from "./objects";
-import { azimuthText } from "./scene";
+import { azimuthPlace, azimuthText } from "./scene";
 
 describe("objects of a scene", () => {
   it("are hidden and shown one by one, in order", () => {
@@ -93,5 +93,11 @@ describe("who drew what", () => {
   it("has the engine's colours", () => {
     // As rangeColour() of renderer/draw/tint.cpp comes out on the screen.
     expect(rangeColour(0, 0.5)).toBe("rgb(140 52 229)");
+  });
+});
+
+describe("the sun's slider", () => {
+  it("shows directions counted the other way, too", () => {
+    expect([-360, -45, 0, 315, 360].map(azimuthPlace)).toEqual([0, 315, 0, 315, 360]);
   });
 });

@@ -17,6 +17,9 @@ export function azimuthText(degrees: number): string {
   return `${round}° ${compass[Math.round(round / 45) % 8] ?? ""}`;
 }
 
+/** On a slider from 0 to 360; programs count from -360. */
+export const azimuthPlace = (degrees: number): number => (degrees < 0 ? degrees + 360 : degrees);
+
 /** Of the sliders, from `sun` or where it would first stand. */
 const sunOf = (sun: Sun | null): Sun => sun ?? usualSun;
 
@@ -37,7 +40,7 @@ function sunControls(state: State, toggle: () => void): HTMLElement {
       min: 0,
       max: 360,
       step: 5,
-      placeOf: ({ sun }) => sunOf(sun).azimuth,
+      placeOf: ({ sun }) => azimuthPlace(sunOf(sun).azimuth),
       text: ({ sun }) => azimuthText(sunOf(sun).azimuth),
       change: (azimuth) => ({ sun: { ...sunOf(state.look.value.sun), azimuth } }),
     }),
