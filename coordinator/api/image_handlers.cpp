@@ -194,6 +194,9 @@ public:
                                                    const Call& call);
 
 private:
+    absl::Status checkSeen(const coordinator::RenderedFrame& frame,
+                           const coordinator::FrameRequest& asked) const;
+
     coordinator::FrameSource& frames_;
     stream::StatisticsFeed& statistics_;
     const QuotaKeeper& quotas_;
@@ -216,8 +219,7 @@ absl::StatusOr<v1::RenderImageResponse> Painter::render(const v1::RenderImageReq
     if (call.stop.stop_requested())
         return absl::CancelledError("the caller has gone");
     statistics_.drawn("", frame);
-    if (const std::string why = coordinator::whyEmpty(frame); !why.empty())
-        return absl::FailedPreconditionError(why);
+    RETURN_IF_ERROR(checkSeen(frame, asked));
     v1::RenderImageResponse response;
     ASSIGN_OR_RETURN(*response.mutable_image(), encoded(frame.image, request));
     response.set_format(request.format() == v1::IMAGE_FORMAT_UNSPECIFIED ? v1::IMAGE_FORMAT_PNG
@@ -229,6 +231,22 @@ absl::StatusOr<v1::RenderImageResponse> Painter::render(const v1::RenderImageReq
     *response.mutable_statistics() =
         stream::statisticsMessage(frame, frame.image.area.width, frame.image.area.height);
     return response;
+}
+
+/// A part that lies beside all that the whole picture shows is background, as it is there.
+absl::Status Painter::checkSeen(const coordinator::RenderedFrame& frame,
+                                const coordinator::FrameRequest& asked) const {
+    const std::string why = coordinator::whyEmpty(frame);
+    if (why.empty())
+        return absl::OkStatus();
+    if (!asked.part.isEmpty()) {
+        coordinator::FrameRequest whole = asked;
+        whole.part = {};
+        ASSIGN_OR_RETURN(const fabric::SeenAreas seen, frames_.seen(whole));
+        if (!seen || !seen->empty())
+            return absl::OkStatus();
+    }
+    return absl::FailedPreconditionError(why);
 }
 
 }  // namespace

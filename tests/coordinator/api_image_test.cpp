@@ -148,6 +148,29 @@ TEST_F(Rest, PicturesTooLargeForOneAnswerComeInParts) {
     EXPECT_EQ(frames_.requests().size(), 1U);
 }
 
+TEST_F(Rest, APartBesideAllThatIsSeenIsBackgroundUnlessTheWholePictureIs) {
+    frames_.setDraw([](const coordinator::FrameRequest& request) {
+        coordinator::RenderedFrame frame = coordinator::plainFrame(request, {1, 2, 3, 255});
+        frame.pictures.front().seen = std::vector<fabric::SeenArea>();
+        return frame;
+    });
+    std::vector<fabric::SeenArea> areas(1);
+    frames_.setSeen([&](const coordinator::FrameRequest& request) {
+        EXPECT_TRUE(request.part.isEmpty());
+        EXPECT_EQ(request.width, 200);
+        return fabric::SeenAreas(areas);
+    });
+    const std::string part =
+        R"({"width":200,"height":100,"format":"IMAGE_FORMAT_RAW","part":{"x":100,"width":1,"height":1}})";
+    const RestAnswer beside = send("POST", "/image", part);
+    ASSERT_EQ(beside.status, 200) << *beside.body;
+    EXPECT_EQ(*beside.body, std::string("\1\2\3\xFF", 4));
+    expectProblem(send("POST", "/image", R"({"width":200,"height":100})"), 409,
+                  "FAILED_PRECONDITION");
+    areas.clear();
+    expectProblem(send("POST", "/image", part), 409, "FAILED_PRECONDITION");
+}
+
 TEST_F(Rest, EyesAndStereoThatAreNotKnownAreRefused) {
     for (const char* path : {"/image", "/pick"}) {
         const RestAnswer eye = send("POST", path, R"({"shown":{"eye":9}})");
