@@ -29,7 +29,7 @@ v1::ConfigurationState stateOf(const ActiveConfiguration& active) {
 absl::Status apply(const v1::ConfigurationState& change, ActiveConfiguration& active) {
     config::ConfigurationState wanted = active.state();
     RETURN_IF_ERROR(config::change(change, active.written(), wanted));
-    return active.become(std::move(wanted));
+    return active.become(std::move(wanted), change.layouts_size() > 0);
 }
 
 void addMeasured(const equalizer::EqualizerState& state, v1::EqualizerReport& report) {

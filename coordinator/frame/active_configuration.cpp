@@ -137,7 +137,7 @@ ActiveConfiguration::Balance& ActiveConfiguration::balanceOf(std::uint64_t sessi
     return balances_.front();
 }
 
-absl::Status ActiveConfiguration::become(config::ConfigurationState state) {
+absl::Status ActiveConfiguration::become(config::ConfigurationState state, bool choosesLayouts) {
     for (std::size_t i = 0; i < state.equalizers.size(); ++i)
         if (state.equalizers[i] != state_.equalizers[i])
             RETURN_IF_ERROR(compound::checkDivision(written_, state, i));
@@ -150,6 +150,8 @@ absl::Status ActiveConfiguration::become(config::ConfigurationState state) {
         if (state_.equalizers[i] != before.equalizers[i])
             for (Balance& balance : balances_)
                 RETURN_IF_ERROR(balance.equalizers.tune(i, state_.equalizers[i]));
+    if (choosesLayouts)
+        ++layoutChoices_;
     return absl::OkStatus();
 }
 
@@ -162,7 +164,7 @@ void ActiveConfiguration::renameNodes(std::vector<config::Node> nodes) {
 absl::Status ActiveConfiguration::switchLayout(std::string_view canvas, std::string_view layout) {
     config::ConfigurationState state = state_;
     RETURN_IF_ERROR(config::switchLayout(written_, state, canvas, layout));
-    return become(std::move(state));
+    return become(std::move(state), true);
 }
 
 absl::Status ActiveConfiguration::setHead(std::string_view observer,

@@ -38,9 +38,12 @@ public:
         return balances_.front().equalizers.states();
     }
 
-    /// Puts `state` in the place of state(). Errors: InvalidArgument where it cannot be shown, as
-    /// with an eye behind its wall; then nothing has changed.
-    absl::Status become(config::ConfigurationState state);
+    /// Puts `state` in the place of state(), of which layouts may have been chosen. Errors:
+    /// InvalidArgument where it cannot be shown, as with an eye behind its wall; then nothing has
+    /// changed.
+    absl::Status become(config::ConfigurationState state, bool choosesLayouts = false);
+    /// How often layouts have been chosen, those that were on show already as well.
+    std::uint64_t layoutChoices() const { return layoutChoices_; }
 
     /// As the functions of config::ConfigurationState and Equalizers::tune, and become.
     absl::Status switchLayout(std::string_view canvas, std::string_view layout);
@@ -128,6 +131,7 @@ private:
     std::optional<Sized> drawn_;              ///< for the last frame planned
     std::vector<Pipe> pipes_;
     RendererOfPipe renderers_;
+    std::uint64_t layoutChoices_ = 0;
     std::list<Balance> balances_;  ///< never empty; that planned for last comes first
 };
 

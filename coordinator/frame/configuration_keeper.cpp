@@ -173,8 +173,7 @@ absl::Status ConfigurationKeeper::configure(const SwitchLayout& change) {
         return absl::FailedPreconditionError(
             "there is no renderer yet, and so no configuration that could be switched");
     RETURN_IF_ERROR(active_->switchLayout(change.canvas, change.layout));
-    if (!given_)
-        layout_ = change.layout;
+    noteChoice();
     keep();
     tell();
     return absl::OkStatus();
@@ -186,13 +185,21 @@ absl::Status ConfigurationKeeper::change(
         return absl::FailedPreconditionError(
             "there is no renderer yet, and so no configuration; start one");
     const config::ConfigurationState before = active_->state();
+    const std::uint64_t choices = active_->layoutChoices();
     RETURN_IF_ERROR(use(*active_));
-    if (!given_ && active_->state().layouts != before.layouts)
-        layout_ = layoutName(active_->written(), active_->state().layouts.front());
-    if (active_->state() != before)
+    const bool isChosen = active_->layoutChoices() != choices;
+    if (isChosen)
+        noteChoice();
+    if (isChosen || active_->state() != before)
         keep();
     tell();
     return absl::OkStatus();
+}
+
+/// By name: others may have its position among those of another number of renderers.
+void ConfigurationKeeper::noteChoice() {
+    if (!given_)
+        layout_ = layoutName(active_->written(), active_->state().layouts.front());
 }
 
 void ConfigurationKeeper::keep() const {

@@ -56,6 +56,7 @@ private:
     void make(const std::vector<config::RendererFacts>& renderers);
     void takeUp(const KeptConfiguration& before);
     absl::Status takeUp(const std::string& canvas, const KeptLayout& kept);
+    void noteChoice();
     void keep() const;
     std::map<std::string, KeptLayout> switchedLayouts() const;
     void tell();

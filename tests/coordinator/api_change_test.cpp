@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What programs change of the scene and the configuration by REST.
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -44,6 +45,27 @@ TEST_F(Rest, ConfigurationsChangeWhollyOrNotAtAll) {
         send("PATCH", "/configuration", R"({"layouts":[{"canvas":"0","layout":"1"}]})");
     ASSERT_EQ(layout.status, 200) << *layout.body;
     EXPECT_NE(*get("/configuration").body, now);
+}
+
+/// The one on show may be there in the place of another, for want of renderers.
+TEST_F(Rest, ALayoutIsChosenThoughItIsOnShow) {
+    const auto choices = [this] {
+        std::uint64_t count = 0;
+        EXPECT_TRUE(configuration_
+                        .withConfiguration([&](coordinator::ActiveConfiguration& active) {
+                            count = active.layoutChoices();
+                            return absl::OkStatus();
+                        })
+                        .ok());
+        return count;
+    };
+    const std::string change = R"({"layouts":[{"canvas":"0","layout":"1"}]})";
+    for (std::uint64_t i = 1; i <= 2; ++i) {
+        ASSERT_EQ(send("PATCH", "/configuration", change).status, 200);
+        EXPECT_EQ(choices(), i);
+    }
+    ASSERT_EQ(send("PATCH", "/configuration", "{}").status, 200);
+    EXPECT_EQ(choices(), 2U);
 }
 
 TEST_F(Rest, AWallBehindAnEyeIsRefusedAndNothingOfTheChangeIsDone) {

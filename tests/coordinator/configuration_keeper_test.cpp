@@ -129,6 +129,33 @@ ConfigurationKeeping keeping(KeptConfiguration& kept) {
     return {kept, [&kept](const KeptConfiguration& now) { kept = now; }};
 }
 
+/// The one that is on show in its place may be chosen, too.
+TEST(ConfigurationKeeper, ShowsTheChosenLayoutThoughItWasOnShowForAnother) {
+    KeptConfiguration kept;
+    ConfigurationKeeper keeper(
+        std::nullopt, "DB static", [] {}, keeping(kept));
+    keeper.with(renderers({"a"}));
+    ASSERT_EQ(keeper.canvases().front().layout, "Simple");
+    ASSERT_TRUE(
+        keeper
+            .change([](ActiveConfiguration& active) { return active.become(active.state(), true); })
+            .ok());
+    EXPECT_EQ(kept.layouts.at("0").layout, "Simple");
+    keeper.with(renderers({"a", "b"}));
+    EXPECT_EQ(keeper.canvases().front().layout, "Simple");
+}
+
+TEST(ConfigurationKeeper, KeepsAChosenLayoutByItsNameHoweverItWasAskedFor) {
+    for (const char* const asked : {"0", "#0"}) {
+        ConfigurationKeeper keeper(std::nullopt, "", [] {});
+        keeper.with(renderers({"a"}));
+        ASSERT_EQ(keeper.canvases().front().layout, "Simple");
+        ASSERT_TRUE(keeper.configure({"0", asked}).ok()) << asked;
+        keeper.with(renderers({"a", "b", "c"}));
+        EXPECT_EQ(keeper.canvases().front().layout, "Simple") << asked;
+    }
+}
+
 TEST(ConfigurationKeeper, TakesUpWhatWasSetBeforeOfHoweverManyRenderers) {
     KeptConfiguration kept;
     {
