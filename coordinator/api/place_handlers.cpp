@@ -97,10 +97,7 @@ absl::StatusOr<v1::MeasureProfileResponse> measureProfile(coordinator::FrameSour
                                    std::move(hidden)};
     RETURN_IF_ERROR(stream::validate(line));
     const coordinator::Status status = frames.status();
-    const fabric::Box bounds = status.sceneInfo.bounds;
-    if (bounds.isEmpty())
-        return absl::UnavailableError(status.problem.empty() ? "no scene is open yet"
-                                                             : status.problem);
+    ASSIGN_OR_RETURN(const fabric::Box bounds, stream::profiledBounds(status));
     v1::MeasureProfileResponse response;
     for (int i = 0; i < line.samples; ++i) {
         if (call.stop.stop_requested())

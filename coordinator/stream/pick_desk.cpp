@@ -49,8 +49,11 @@ std::optional<std::string> PickDesk::takeStep(Profiling& profiling) const {
     const auto& [sequence, line] = profiling.profile;
     if (!line.ok())
         return profiledMessage(sequence, line.status());
-    const absl::StatusOr<fabric::Picked> picked = frames_.pick(pickFromAbove(
-        *line, static_cast<int>(profiling.found.size()), frames_.status().sceneInfo.bounds));
+    const absl::StatusOr<fabric::Box> bounds = profiledBounds(frames_.status());
+    if (!bounds.ok())
+        return profiledMessage(sequence, bounds.status());
+    const absl::StatusOr<fabric::Picked> picked =
+        frames_.pick(pickFromAbove(*line, static_cast<int>(profiling.found.size()), *bounds));
     if (!picked.ok())
         return profiledMessage(sequence, picked.status());
     profiling.found.push_back(*picked);

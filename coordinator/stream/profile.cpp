@@ -25,6 +25,12 @@ absl::Status validate(const ProfileLine& line) {
     return absl::OkStatus();
 }
 
+absl::StatusOr<fabric::Box> profiledBounds(const coordinator::Status& status) {
+    if (!status.sceneInfo.bounds.isEmpty())
+        return status.sceneInfo.bounds;
+    return absl::UnavailableError(status.problem.empty() ? "no scene is open yet" : status.problem);
+}
+
 fabric::PickRequest pickFromAbove(const ProfileLine& line, int index, const fabric::Box& scene) {
     const double share = static_cast<double>(index) / (line.samples - 1);
     const fabric::Vec2 at = line.from * (1 - share) + line.to * share;

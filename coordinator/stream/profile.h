@@ -2,7 +2,9 @@
 #pragma once
 
 #include <absl/status/status.h>
+#include <absl/status/statusor.h>
 
+#include "coordinator/frame/frame_source.h"
 #include "fabric/box.h"
 #include "fabric/pick.h"
 #include "fabric/vec.h"
@@ -24,6 +26,9 @@ inline constexpr int kMaxSamples = 512;
 /// InvalidArgument, naming the field, unless the ends are within fabric::kMaxCoordinateMetres and
 /// the number is in its range.
 absl::Status validate(const ProfileLine& line);
+
+/// Of the scene that is measured, world metres. Unavailable, saying why, while none is open.
+absl::StatusOr<fabric::Box> profiledBounds(const coordinator::Status& status);
 
 /// Asks what lies topmost at sample `index` of `line`, by looking straight down from above all of a
 /// scene with these bounds, world metres. Its answer's errorMetres is how far from the source the

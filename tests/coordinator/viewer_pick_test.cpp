@@ -146,6 +146,21 @@ TEST(ViewerProfiles, AreRefusedWithMorePointsThanTheLimit) {
     EXPECT_TRUE(frames.picks().empty());
 }
 
+TEST(ViewerProfiles, SayThatNoSceneIsOpen) {
+    FakeFrameSource frames;
+    coordinator::Status opening = coordinator::readyStatus();
+    opening.sceneInfo = {};
+    frames.setStatus(opening);
+    Browser browser(frames);
+    browser.send(profileMessage(1, 2));
+    EXPECT_THAT(nextProfiled(browser)->problem(), HasSubstr("no scene is open yet"));
+    opening.problem = "opening the scene";
+    frames.setStatus(opening);
+    browser.send(profileMessage(2, 2));
+    EXPECT_THAT(nextProfiled(browser)->problem(), HasSubstr("opening the scene"));
+    EXPECT_TRUE(frames.picks().empty());
+}
+
 TEST(ViewerProfiles, LetPicksGoFirst) {
     FakeFrameSource frames;
     Browser browser(frames);
