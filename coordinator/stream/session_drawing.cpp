@@ -188,7 +188,7 @@ void Session::Impl::rendered(const Begun& begun, absl::StatusOr<coordinator::Ren
         const double stretch = stretchOf(begun.view, begun.request, frame->image.area);
         tellAtFullSize(frame->statistics, begun.view, stretch);
         if (statistics_ != nullptr)
-            statistics_->drawn(id_, *frame);
+            statistics_->drawn(id_, *frame, number_);
         Picture picture{begun.view,
                         std::make_shared<const coordinator::RenderedFrame>(*std::move(frame)),
                         begun.at};

@@ -42,7 +42,7 @@ Session::Impl::~Impl() {
     for (std::thread& thread : renderers_) thread.join();
     encoder_.join();
     if (statistics_ != nullptr)
-        statistics_->ended(id_);
+        statistics_->ended(id_, number_);
 }
 
 std::shared_ptr<Seat> Session::Impl::join(Role role, bool mayControl,

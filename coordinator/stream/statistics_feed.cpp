@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -38,7 +40,8 @@ public:
 
     explicit Impl(std::size_t readers) : limit_(readers), thread_([this] { tellLoop(); }) {}
 
-    void drawn(const std::string& session, const coordinator::RenderedFrame& frame) {
+    void drawn(const std::string& session, const coordinator::RenderedFrame& frame,
+               std::uint64_t number) {
         auto message = std::make_shared<v1::WatchStatisticsResponse>();
         message->set_unix_milliseconds(std::chrono::duration_cast<std::chrono::milliseconds>(
                                            std::chrono::system_clock::now().time_since_epoch())
@@ -51,7 +54,7 @@ public:
             message->set_frame(++frames_);
             last_ = message;
             if (!session.empty())
-                lastOf_[session] = message;
+                lastOf_[{session, number}] = message;
             for (const auto& ear : ears_)
                 if (isFor(*ear, session)) {
                     if (ear->newest != nullptr)
@@ -62,9 +65,9 @@ public:
         changed_.notify_all();
     }
 
-    void ended(const std::string& session) {
+    void ended(const std::string& session, std::uint64_t number) {
         const std::lock_guard lock(mutex_);
-        lastOf_.erase(session);
+        lastOf_.erase({session, number});
     }
 
     absl::StatusOr<std::shared_ptr<Ear>> listen(Wish wish) {
@@ -78,8 +81,8 @@ public:
         ear->wish = std::move(wish);
         if (ear->wish.session.empty())
             ear->newest = last_;
-        else if (const auto found = lastOf_.find(ear->wish.session); found != lastOf_.end())
-            ear->newest = found->second;
+        else
+            ear->newest = lastOf(ear->wish.session);
         ears_.push_back(ear);
         return ear;
     }
@@ -115,6 +118,15 @@ public:
     }
 
 private:
+    /// That of the last session of that id; null where there is none.
+    Message lastOf(const std::string& session) const {
+        const auto after =
+            lastOf_.upper_bound({session, std::numeric_limits<std::uint64_t>::max()});
+        if (after == lastOf_.begin() || std::prev(after)->first.first != session)
+            return nullptr;
+        return std::prev(after)->second;
+    }
+
     static bool isFor(const Ear& ear, const std::string& session) {
         return ear.wish.session.empty() || ear.wish.session == session;
     }
@@ -172,7 +184,7 @@ private:
     std::condition_variable changed_;
     std::vector<std::shared_ptr<Ear>> ears_;
     Message last_;
-    std::map<std::string, Message> lastOf_;  ///< by session
+    std::map<std::pair<std::string, std::uint64_t>, Message> lastOf_;  ///< by session and number
     std::uint64_t frames_ = 0;
     bool isStopped_ = false;
     std::mutex joining_;
@@ -197,8 +209,9 @@ private:
 StatisticsFeed::StatisticsFeed(std::size_t readers) : impl_(std::make_shared<Impl>(readers)) {}
 StatisticsFeed::~StatisticsFeed() { stop(); }
 
-void StatisticsFeed::drawn(const std::string& session, const coordinator::RenderedFrame& frame) {
-    impl_->drawn(session, frame);
+void StatisticsFeed::drawn(const std::string& session, const coordinator::RenderedFrame& frame,
+                           std::uint64_t number) {
+    impl_->drawn(session, frame, number);
 }
 
 absl::StatusOr<std::unique_ptr<StatisticsFeed::Reader>> StatisticsFeed::read(Wish wish) {
@@ -208,7 +221,9 @@ absl::StatusOr<std::unique_ptr<StatisticsFeed::Reader>> StatisticsFeed::read(Wis
     return std::make_unique<OwnReader>(impl_, *std::move(ear));
 }
 
-void StatisticsFeed::ended(const std::string& session) { impl_->ended(session); }
+void StatisticsFeed::ended(const std::string& session, std::uint64_t number) {
+    impl_->ended(session, number);
+}
 
 void StatisticsFeed::stop() { impl_->stop(); }
 

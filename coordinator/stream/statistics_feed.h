@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -32,10 +33,12 @@ public:
     StatisticsFeed(const StatisticsFeed&) = delete;
     StatisticsFeed& operator=(const StatisticsFeed&) = delete;
 
-    /// A frame has been drawn for the session of that id; empty: for a program.
-    void drawn(const std::string& session, const coordinator::RenderedFrame& frame);
-    /// There is no session of that id any more.
-    void ended(const std::string& session);
+    /// A frame has been drawn for the session of that id; empty: for a program. `number` tells
+    /// sessions that have the same id one after another apart: later ones have greater ones.
+    void drawn(const std::string& session, const coordinator::RenderedFrame& frame,
+               std::uint64_t number = 0);
+    /// There is no such session any more; there may already be another of that id.
+    void ended(const std::string& session, std::uint64_t number = 0);
 
     struct Wish {
         std::string session = {};                        ///< of its frames only; empty: all

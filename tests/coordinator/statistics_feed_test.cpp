@@ -159,6 +159,23 @@ TEST(StatisticsFeed, TellsTheLastFrameOfTheSessionThoughOthersFollowed) {
     EXPECT_EQ(next.triangles(), 4U) << "of the session that has the name now";
 }
 
+TEST(StatisticsFeed, TellsTheLastFrameOfASessionThatBeganBeforeThatOfItsNameHadEnded) {
+    StatisticsFeed feed;
+    feed.drawn("a", frameOf(1), 7);
+    feed.drawn("a", frameOf(2), 8);
+    feed.drawn("a", frameOf(3), 7);  // it was under way
+    const auto first = [&feed] {
+        Heard heard;
+        const auto reader = feed.read({"a", {}}).value();
+        reader->next(heard.then());
+        EXPECT_TRUE(heard.becomes(1));
+        return heard.triangles();
+    };
+    EXPECT_EQ(first(), 2U);
+    feed.ended("a", 7);
+    EXPECT_EQ(first(), 2U);
+}
+
 TEST(StatisticsFeed, TellsWhoWaitsThatThereWillBeNoMore) {
     StatisticsFeed feed;
     Heard heard;
