@@ -285,7 +285,13 @@ private:
             good.raw("headers", headersOf(response, rest));
         responses.raw("200", good.raw("content", content.str()).str());
         if (rest.method() == "GET" && !call.server_streaming())
-            responses.raw("304", R"({"description":"It is as If-None-Match has it"})");
+            responses.raw(
+                "304",
+                JsonMembers()
+                    .text("description", "It is as If-None-Match has it")
+                    .raw("headers",
+                         JsonMembers().raw("ETag", header("Of the answer that is not sent.")).str())
+                    .str());
         if (changes(rest))
             responses.raw("412", problem("It is not as If-Match or If-None-Match has it"));
         const std::string later =

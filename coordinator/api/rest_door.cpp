@@ -179,25 +179,42 @@ std::string tagOf(const RestAnswer& answer) {
     return tag == answer.headers.end() ? "" : tag->second;
 }
 
-/// Whether `tags` of a header are "*" or have `etag` among them; W/"…" does not count.
-bool isListed(std::string_view etag, std::string_view tags) {
-    const std::size_t at = tags.find(etag);
-    return tags == "*" || (at != std::string_view::npos && !tags.substr(0, at).ends_with("W/"));
+/// How tags are compared: RFC 9110, 8.8.3.2.
+enum class Comparison {
+    Strong,  ///< W/"…" does not count
+    Weak,    ///< it does
+};
+
+/// Whether `tags` of a header are "*" or have `etag` among them.
+bool isListed(std::string_view etag, std::string_view tags, Comparison comparison) {
+    if (tags == "*")
+        return true;
+    for (std::size_t at = tags.find(etag); at != std::string_view::npos;
+         at = tags.find(etag, at + etag.size()))
+        if (comparison == Comparison::Weak || !tags.substr(0, at).ends_with("W/"))
+            return true;
+    return false;
+}
+
+/// Whether there is something with a tag that If-None-Match has: RFC 9110, 13.1.2.
+bool isKnown(const RestRequest& request, const std::string& etag) {
+    return isListed(etag, request.ifNoneMatch, Comparison::Weak);
 }
 
 /// Whether what a change was meant for is what there is: RFC 9110, 13.2.2. `etag` is empty where
 /// there is nothing.
 bool isMet(const RestRequest& request, const std::string& etag) {
     const bool isThere = !etag.empty();
-    return (request.ifMatch.empty() || (isThere && isListed(etag, request.ifMatch))) &&
-           (request.ifNoneMatch.empty() || !isThere || !isListed(etag, request.ifNoneMatch));
+    return (request.ifMatch.empty() ||
+            (isThere && isListed(etag, request.ifMatch, Comparison::Strong))) &&
+           !(isThere && isKnown(request, etag));
 }
 
 void tag(const RestRequest& request, RestAnswer& answer) {
     const std::string etag =
         fmt::format("\"{:016x}\"", XXH64(answer.body->data(), answer.body->size(), 0));
     answer.headers.emplace_back("ETag", etag);
-    if (request.ifNoneMatch.find(etag) == std::string::npos && request.ifNoneMatch != "*")
+    if (!isKnown(request, etag))
         return;
     answer.status = 304;
     answer.body = std::make_shared<const std::string>();

@@ -211,7 +211,11 @@ TEST_F(Rest, ChangesAreMadeToWhatTheyWereMeantForOrNotAtAll) {
     expectProblem(stale, 412, "FAILED_PRECONDITION");
     EXPECT_THAT(text(stale, "remedy"), StartsWith("ask for it again"));
     EXPECT_THAT(*get("/flights/a").body, HasSubstr("second"));
-    EXPECT_EQ(put("weak", "W/" + header(get("/flights/a"), "ETag")).status, 412);
+    const std::string now = header(get("/flights/a"), "ETag");
+    EXPECT_EQ(put("weak", "W/" + now).status, 412);
+    EXPECT_EQ(put("fourth", "W/" + now + ", " + now).status, 200) << "the strong one counts";
+    EXPECT_EQ(put("fifth", "", "W/" + header(get("/flights/a"), "ETag")).status, 412)
+        << "the weak one counts where there is to be none such";
     RestRequest remove{"DELETE", "/flights/a"};
     remove.ifMatch = tag;
     EXPECT_EQ(ask(remove).status, 412);

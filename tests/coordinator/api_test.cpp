@@ -44,6 +44,9 @@ TEST_F(Rest, AnswersThatHaveNotChangedAreNotSentAgain) {
     again.ifNoneMatch = tag;
     EXPECT_EQ(ask(again).status, 304);
     EXPECT_TRUE(ask(again).body->empty());
+    EXPECT_EQ(header(ask(again), "ETag"), tag);
+    again.ifNoneMatch = "W/" + tag;
+    EXPECT_EQ(ask(again).status, 304);
     coordinator::Status status = coordinator::readyStatus();
     status.problem = "other";
     frames_.setStatus(status);
@@ -237,6 +240,8 @@ TEST_F(Rest, TheDocumentTellsOfTokensAndHeaders) {
                     .struct_value()
                     .fields()
                     .contains("Retry-After"));
+    const Value unchanged = member(member(operation("/scene", "get"), "responses"), "304");
+    EXPECT_TRUE(member(unchanged, "headers").struct_value().fields().contains("ETag"));
     EXPECT_THAT(member(operation("/scene", "put"), "description").string_value(),
                 HasSubstr("For tokens of role control."));
     EXPECT_THAT(*api_->rest().answer({"GET", "/api"}).body,
