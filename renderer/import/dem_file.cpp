@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <optional>
 
 #include <absl/strings/ascii.h>
@@ -15,6 +14,7 @@
 
 #include "fabric/scene_reach.h"
 #include "fabric/status.h"
+#include "renderer/import/float_heights.h"
 #include "renderer/import/raster_file.h"
 #include "renderer/terrain/height_grid.h"
 
@@ -230,30 +230,23 @@ GDALRasterBand* maskOf(GDALDataset& dataset, GDALRasterBand& heights) {
 }
 
 /// The heights of another dataset's first band, turned to metres block by block.
-class HeightBand : public GDALRasterBand {
+class HeightBand : public FloatHeights {
 public:
     using Impossible = std::shared_ptr<std::optional<ImpossibleHeight>>;
 
     /// `mask` is 0 where there is no height; null: there is none.
     HeightBand(GDALDataset* owner, int columns, GDALRasterBand* source, GDALRasterBand* mask,
                const ValueRule& rule, Impossible impossible)
-        : source_(source), mask_(mask), rule_(rule), impossible_(std::move(impossible)) {
-        poDS = owner;
-        nBand = 1;
-        eDataType = GDT_Float32;
-        nRasterXSize = columns;
-        nRasterYSize = source->GetYSize();
+        : FloatHeights(owner, columns, source->GetYSize()),
+          source_(source),
+          mask_(mask),
+          rule_(rule),
+          impossible_(std::move(impossible)) {
         source->GetBlockSize(&nBlockXSize, &nBlockYSize);
         constexpr std::int64_t kMostValues = 1 << 22;
         if (nBlockXSize < 1 || nBlockYSize < 1 ||
             std::int64_t{nBlockXSize} * nBlockYSize > kMostValues)
             nBlockXSize = nBlockYSize = 512;
-    }
-
-    double GetNoDataValue(int* isSet) override {
-        if (isSet != nullptr)
-            *isSet = 1;
-        return std::numeric_limits<double>::quiet_NaN();
     }
 
 protected:

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
+#include "renderer/import/float_heights.h"
 #include "renderer/terrain/height_grid.h"
 
 namespace eyrie::import {
@@ -25,24 +25,10 @@ struct Member {
     int row;
 };
 
-class JoinedBand : public GDALRasterBand {
+class JoinedBand : public FloatHeights {
 public:
     JoinedBand(GDALDataset* owner, int columns, int rows, std::vector<Member> members)
-        : members_(std::move(members)) {
-        constexpr int kBlock = 256;
-        poDS = owner;
-        nBand = 1;
-        eDataType = GDT_Float32;
-        nRasterXSize = columns;
-        nRasterYSize = rows;
-        nBlockXSize = nBlockYSize = kBlock;
-    }
-
-    double GetNoDataValue(int* isSet) override {
-        if (isSet != nullptr)
-            *isSet = 1;
-        return std::numeric_limits<double>::quiet_NaN();
-    }
+        : FloatHeights(owner, columns, rows), members_(std::move(members)) {}
 
 protected:
     CPLErr IReadBlock(int x, int y, void* data) override {

@@ -16,6 +16,7 @@
 #include <glm/matrix.hpp>
 #include <ogr_spatialref.h>
 
+#include "renderer/import/float_heights.h"
 #include "renderer/terrain/height_grid.h"
 
 namespace eyrie::import {
@@ -162,25 +163,14 @@ struct Surroundings {
     }
 };
 
-class RimmedBand : public GDALRasterBand {
+class RimmedBand : public FloatHeights {
 public:
     /// `own` begins some columns and a row in.
     RimmedBand(GDALDataset* owner, GDALRasterBand* own, int marginColumns, Surroundings around)
-        : own_(own), marginColumns_(marginColumns), around_(std::move(around)) {
-        constexpr int kBlock = 256;
-        poDS = owner;
-        nBand = 1;
-        eDataType = GDT_Float32;
-        nRasterXSize = own->GetXSize() + 2 * marginColumns;
-        nRasterYSize = own->GetYSize() + 2;
-        nBlockXSize = nBlockYSize = kBlock;
-    }
-
-    double GetNoDataValue(int* isSet) override {
-        if (isSet != nullptr)
-            *isSet = 1;
-        return std::numeric_limits<double>::quiet_NaN();
-    }
+        : FloatHeights(owner, own->GetXSize() + 2 * marginColumns, own->GetYSize() + 2),
+          own_(own),
+          marginColumns_(marginColumns),
+          around_(std::move(around)) {}
 
 protected:
     CPLErr IReadBlock(int x, int y, void* data) override {
