@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "renderer/import/assimp_reader.h"
+#include "tests/renderer/mesh/temporary_folder.h"
+
 /// Files that several tests of readWithAssimp() read.
 namespace eyrie::test {
 
@@ -54,5 +62,13 @@ inline constexpr const char* kGltf =
 "min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],
 "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
     "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+
+/// What reading that text says.
+inline std::vector<std::string> notesOfFile(const std::string& path, const std::string& text) {
+    writeFile(path, text);
+    const auto mesh = import::readWithAssimp(path);
+    EXPECT_TRUE(mesh.ok()) << mesh.status();
+    return mesh.ok() ? mesh->notes : std::vector<std::string>();
+}
 
 }  // namespace eyrie::test
