@@ -8,6 +8,10 @@ namespace eyrie::import {
 /// a little above it.
 constexpr double kMostOfFractions = 2;
 
+/// Colours of 16 bits reach to 65,535, unless no number is above this one: a mesh of them would be
+/// black, and programs write the bytes that they have into numbers that are wider.
+constexpr double kMostOfBytes = 255;
+
 /// For TriangleMesh::notes, where they reach to 255.
 constexpr const char* kColoursAreBytes = "vertices' colours are taken for numbers of 0 to 255";
 

@@ -108,16 +108,16 @@ VertexLayout::VertexLayout(const PlyElement& element, bool withPlaces) {
     }
 }
 
-std::uint8_t colourByte(double value, PlyType type, bool areBytes) {
+std::uint8_t colourByte(double value, PlyType type, const ByteColours& bytes) {
     if (!isInteger(type))
-        value *= areBytes ? 1 : 255;
+        value *= bytes.areReals ? 1 : 255;
     else if (type == PlyType::UInt16)
-        value /= 257;
+        value /= bytes.areWide ? 1 : 257;
     return static_cast<std::uint8_t>(value > 0 ? std::lround(std::min(value, 255.0)) : 0);
 }
 
-std::uint8_t opacityByte(double value, PlyType type) {
-    return colourByte(value, type, value > kMostOfFractions);
+std::uint8_t opacityByte(double value, PlyType type, const ByteColours& bytes) {
+    return colourByte(value, type, {value > kMostOfFractions, bytes.areWide});
 }
 
 const PlyProperty* findCorners(const PlyElement& element) {

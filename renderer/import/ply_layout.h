@@ -38,23 +38,25 @@ struct VertexLayout {
         return isFilled[first] && isFilled[first + 1] && isFilled[first + 2];
     }
     bool hasPlaces() const { return isFilled[kU] && isFilled[kV]; }
-    /// Whether colours are there, one of which may reach to 1 or to 255 (byte_colours.h).
-    bool hasRealColours() const {
-        return hasThree(kRed) && (isReal(kRed) || isReal(kRed + 1) || isReal(kRed + 2));
-    }
     bool isReal(std::size_t slot) const { return isFilled[slot] && !isInteger(types[slot]); }
+    bool isWide(std::size_t slot) const { return isFilled[slot] && types[slot] == PlyType::UInt16; }
 
     std::vector<std::size_t> slots;             ///< one a property
     std::array<PlyType, kVertexSlots> types{};  ///< of the property that fills a slot
     std::array<bool, kVertexSlots> isFilled{};
 };
 
-/// A colour value of a property of `type` as a byte, clamped; not-a-number is 0. Real ones reach to
-/// 255 if `areBytes`, else to 1.
-std::uint8_t colourByte(double value, PlyType type, bool areBytes);
+/// Which of a file's colours reach to 255 though their type does not say so (byte_colours.h).
+struct ByteColours {
+    bool areReals = false;  ///< which reach to 1 otherwise
+    bool areWide = false;   ///< of 16 bits, to 65,535 otherwise
+};
 
-/// The same of an opacity: a real one reaches to 255 where it is above kMostOfFractions.
-std::uint8_t opacityByte(double value, PlyType type);
+/// A colour value of a property of `type` as a byte, clamped; not-a-number is 0.
+std::uint8_t colourByte(double value, PlyType type, const ByteColours& bytes);
+
+/// The same of an opacity: a real one reaches to 255 where it is above kMostOfFractions itself.
+std::uint8_t opacityByte(double value, PlyType type, const ByteColours& bytes);
 
 /// The property that lists the corners of a face or strip; null if there is none.
 const PlyProperty* findCorners(const PlyElement& element);

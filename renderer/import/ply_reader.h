@@ -17,8 +17,8 @@ namespace eyrie::import {
 /// Reads a PLY mesh: text or binary of either byte order; elements and properties in any order,
 /// others skipped. Taken are
 ///   vertex:     x y z; nx ny nz and red green blue [alpha] (diffuse_red ... too) where complete;
-///               whole-number colours count to 255 (16-bit ones to 65,535), real ones to 1 or,
-///               where one says so (byte_colours.h), to 255, as notes say
+///               whole-number colours count to 255, 16-bit ones to 65,535 and real ones to 1 or,
+///               where their values say so (byte_colours.h), to 255, as notes say
 ///   face:       list vertex_indices or vertex_index, of three corners or more (polygon.h)
 ///   tristrips:  the same, strips parted by -1
 ///   textures:   images named by comments TextureFile, for loadTextures; a face's coordinates in

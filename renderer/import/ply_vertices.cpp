@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/ply_vertices.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -34,10 +35,10 @@ absl::Status PlyVertices<Values>::store(const VertexLayout& layout, const Vertex
                                   static_cast<float>(row[5]));
     if (layout.hasThree(kRed)) {
         const auto byteOf = [&](std::size_t slot) {
-            return colourByte(row[slot], layout.types[slot], coloursAreBytes_);
+            return colourByte(row[slot], layout.types[slot], bytes_);
         };
         const std::uint8_t opacity = layout.isFilled[kAlpha]
-                                         ? opacityByte(row[kAlpha], layout.types[kAlpha])
+                                         ? opacityByte(row[kAlpha], layout.types[kAlpha], bytes_)
                                          : std::uint8_t{255};
         mesh.colours.push_back({byteOf(kRed), byteOf(kRed + 1), byteOf(kRed + 2), opacity});
         notOpaque_ += opacity < 255 ? 1 : 0;
@@ -47,13 +48,22 @@ absl::Status PlyVertices<Values>::store(const VertexLayout& layout, const Vertex
     return absl::OkStatus();
 }
 
-/// Reads ahead, as the first colours need not tell. What cannot be read is told by read().
+/// Reads ahead, as far as it takes to know how far colours reach. What cannot be read is told by
+/// read().
 template <typename Values>
-absl::Status PlyVertices<Values>::lookForBytes(const VertexLayout& layout) {
+absl::Status PlyVertices<Values>::measureColours(const VertexLayout& layout, double& mostReal,
+                                                 double& mostWide) {
     const PlyElement& element = body_.element();
-    const Values start = body_.values;
+    bool hasReals = false, hasWide = false;
+    for (std::size_t slot = kRed; slot <= kAlpha; ++slot) {
+        hasReals = hasReals || (slot < kAlpha && layout.isReal(slot));
+        hasWide = hasWide || layout.isWide(slot);
+    }
+    const auto isOpen = [&] {
+        return (hasReals && mostReal <= kMostOfFractions) || (hasWide && mostWide <= kMostOfBytes);
+    };
     bool canBeRead = true;
-    for (std::uint64_t i = 0; i < element.count && canBeRead && !coloursAreBytes_; ++i) {
+    for (std::uint64_t i = 0; i < element.count && canBeRead && isOpen(); ++i) {
         if (i % PlyBody<Values>::kPiece == 0) {
             RETURN_IF_ERROR(body_.handOver());
             RETURN_IF_ERROR(body_.control().check());
@@ -61,14 +71,26 @@ absl::Status PlyVertices<Values>::lookForBytes(const VertexLayout& layout) {
         for (std::size_t p = 0; p < layout.slots.size() && canBeRead; ++p) {
             const PlyProperty& property = element.properties[p];
             const std::size_t slot = layout.slots[p];
-            const bool isColour = slot >= kRed && slot < kAlpha && layout.isReal(slot);
+            const bool isReal = slot >= kRed && slot < kAlpha && layout.isReal(slot);
+            const bool isWide = slot >= kRed && slot <= kAlpha && layout.isWide(slot);
             double value = 0;
-            canBeRead =
-                isColour ? body_.values.number(property.type, value) : body_.skip(property, i).ok();
-            coloursAreBytes_ = coloursAreBytes_ || value > kMostOfFractions;
+            canBeRead = isReal || isWide ? body_.values.number(property.type, value)
+                                         : body_.skip(property, i).ok();
+            double& most = isReal ? mostReal : mostWide;
+            most = std::max(most, value);
         }
     }
+    return absl::OkStatus();
+}
+
+template <typename Values>
+absl::Status PlyVertices<Values>::lookForBytes(const VertexLayout& layout) {
+    const Values start = body_.values;
+    double mostReal = 0, mostWide = 0;
+    RETURN_IF_ERROR(measureColours(layout, mostReal, mostWide));
     body_.values = start;
+    bytes_ = {mostReal > kMostOfFractions, mostWide <= kMostOfBytes};
+    isOddlyOfBytes_ = bytes_.areReals || (bytes_.areWide && mostWide > 0);
     return absl::OkStatus();
 }
 
@@ -81,7 +103,7 @@ absl::Status PlyVertices<Values>::read() {
     body_.mesh.normals.reserve(layout.hasThree(kNormalX) ? room : 0);
     body_.mesh.colours.reserve(layout.hasThree(kRed) ? room : 0);
     body_.mesh.textureCoordinates.reserve(layout.hasPlaces() ? room : 0);
-    if (layout.hasRealColours())
+    if (layout.hasThree(kRed))
         RETURN_IF_ERROR(lookForBytes(layout));
     VertexRow row{};
     for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -101,7 +123,7 @@ absl::Status PlyVertices<Values>::read() {
 
 template <typename Values>
 void PlyVertices<Values>::addNotes(bool isTextured) const {
-    if (coloursAreBytes_)
+    if (isOddlyOfBytes_)
         body_.mesh.notes.emplace_back(kColoursAreBytes);
     if (notOpaque_ > 0)
         body_.mesh.notes.push_back(fmt::format(

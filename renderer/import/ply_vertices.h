@@ -26,12 +26,14 @@ public:
 
 private:
     absl::Status lookForBytes(const VertexLayout& layout);
+    absl::Status measureColours(const VertexLayout& layout, double& mostReal, double& mostWide);
     absl::Status store(const VertexLayout& layout, const VertexRow& row, std::uint64_t index);
 
     PlyBody<Values>& body_;
     bool withPlaces_;
-    bool coloursAreBytes_ = false;  ///< those of real numbers
-    std::uint64_t notOpaque_ = 0;   ///< vertices
+    ByteColours bytes_;
+    bool isOddlyOfBytes_ = false;  ///< one of these shows
+    std::uint64_t notOpaque_ = 0;  ///< vertices
 };
 
 }  // namespace eyrie::import

@@ -301,6 +301,35 @@ TEST(PlyReader, TakesRealColoursForBytesWhereOneIsFarAboveOneAndSaysSo) {
     }
 }
 
+TEST(PlyReader, TakesColoursOf16BitsForBytesWhereNoneIsAboveThoseAndSaysSo) {
+    const auto read = [](Encoding encoding, const std::vector<std::uint16_t>& values,
+                         const std::string& colour = "ushort") {
+        test::PlyBody body(encoding);
+        body.add(0.0F).add(0.0F).add(0.0F);
+        for (const std::uint16_t value : values) body.add(value);
+        body.endLine().add(std::uint8_t{3}).add(0).add(0).add(0);
+        return parsed(test::formatLine(encoding) +
+                      "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+                      "property " +
+                      colour + " red\nproperty " + colour + " green\nproperty " + colour +
+                      " blue\nproperty ushort alpha\nelement face 1\n" + kFaces + "end_header\n" +
+                      body.bytes());
+    };
+    for (const Encoding encoding : kEncodings) {
+        const TriangleMesh bytes = read(encoding, {255, 128, 0, 255});
+        EXPECT_EQ(bytes.colours, (std::vector<fabric::Rgba>{{255, 128, 0, 255}}));
+        EXPECT_THAT(bytes.notes, testing::ElementsAre(testing::HasSubstr("numbers of 0 to 255")));
+        const TriangleMesh wide = read(encoding, {255, 32896, 257, 65535});
+        EXPECT_EQ(wide.colours, (std::vector<fabric::Rgba>{{1, 128, 1, 255}}));
+        EXPECT_THAT(wide.notes, testing::IsEmpty());
+    }
+    EXPECT_EQ(read(Encoding::Ascii, {100, 0, 0, 65535}).colours,
+              (std::vector<fabric::Rgba>{{0, 0, 0, 255}}))
+        << "an opacity of 16 bits says what the colours have";
+    EXPECT_EQ(read(Encoding::Ascii, {1, 2, 3, 32896}, "uchar").colours,
+              (std::vector<fabric::Rgba>{{1, 2, 3, 128}}));
+}
+
 TEST(PlyReader, CountsVerticesThatAreNotOpaque) {
     const std::string alpha = "property float alpha\n";
     const auto notesOf = [&](const std::string& first, const std::string& second) {
