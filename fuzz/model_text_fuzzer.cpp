@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "renderer/import/amf_text.h"
 #include "renderer/import/collada_text.h"
@@ -13,6 +14,7 @@
 #include "renderer/import/obj_text.h"
 #include "renderer/import/obj_textures.h"
 #include "renderer/import/off_text.h"
+#include "renderer/import/stated_unit.h"
 #include "renderer/import/stl_colours.h"
 #include "renderer/import/stl_length.h"
 #include "renderer/import/stl_text.h"
@@ -29,6 +31,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (const auto amf = amfForAssimp(text); amf && amf->size() > 14 * size)
         std::abort();
     amfCaveats(text);
+    for (const char* name : {"m.amf", "m.x3d"}) {
+        std::vector<std::string> notes;
+        if (!(statedUnitOf(text, *findAssimpFormat(name), notes) > 0))
+            std::abort();
+    }
     dxfForAssimp(text);
     dxfCaveats(text);
     if (const auto obj = objForAssimp(text); obj && objForAssimp(*obj))

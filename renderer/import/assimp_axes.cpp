@@ -9,6 +9,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "renderer/import/stated_unit.h"
+
 namespace eyrie::import {
 namespace {
 
@@ -26,11 +28,12 @@ glm::dvec3 fbxAxis(const aiMetadata& settings, const std::string& name) {
 
 }  // namespace
 
-double metresPerUnitOf(const aiScene& scene, const AssimpFormat& format,
+double metresPerUnitOf(const aiScene& scene, const AssimpFormat& format, std::string_view text,
                        std::vector<std::string>& notes) {
     float centimetres = 0;
-    if (format.extension != ".fbx" || scene.mMetaData == nullptr ||
-        !scene.mMetaData->Get("UnitScaleFactor", centimetres))
+    if (format.extension != ".fbx")
+        return statedUnitOf(text, format, notes);
+    if (scene.mMetaData == nullptr || !scene.mMetaData->Get("UnitScaleFactor", centimetres))
         return 1;
     if (!std::isfinite(centimetres) || centimetres <= 0) {
         notes.push_back(fmt::format(

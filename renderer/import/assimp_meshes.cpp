@@ -70,8 +70,12 @@ bool isOfSinglePrecision(const AssimpFormat& format) {
 /// Gathers what the nodes of a scene show.
 class SceneMeshes {
 public:
-    SceneMeshes(const aiScene& scene, const AssimpFormat& format)
-        : scene_(scene), format_(format), materials_(scene, format), colours_(scene, format) {
+    SceneMeshes(const aiScene& scene, const AssimpFormat& format, std::string_view text)
+        : scene_(scene),
+          format_(format),
+          text_(text),
+          materials_(scene, format),
+          colours_(scene, format) {
         hasColours_ = colours_.areAny();
         for (unsigned int i = 0; i < scene.mNumMeshes; ++i) {
             const aiMesh& mesh = *scene.mMeshes[i];
@@ -96,6 +100,7 @@ private:
 
     const aiScene& scene_;
     const AssimpFormat& format_;
+    std::string_view text_;
     AssimpMaterials materials_;
     AssimpColours colours_;
     bool hasNormals_ = false;
@@ -281,7 +286,7 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
         const aiNode* node;
         glm::dmat4 worldFromNode;
     };
-    const double metresPerUnit = metresPerUnitOf(scene_, format_, result_.notes);
+    const double metresPerUnit = metresPerUnitOf(scene_, format_, text_, result_.notes);
     const glm::dmat4 worldFromScene =
         glm::scale(zUpFromScene(scene_, format_), glm::dvec3(metresPerUnit));
     std::vector<Placed> waiting;
@@ -316,8 +321,9 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
 
 }  // namespace
 
-absl::StatusOr<TriangleMesh> gatherMeshes(const aiScene& scene, const AssimpFormat& format) {
-    return SceneMeshes(scene, format).gather();
+absl::StatusOr<TriangleMesh> gatherMeshes(const aiScene& scene, const AssimpFormat& format,
+                                          std::string_view text) {
+    return SceneMeshes(scene, format, text).gather();
 }
 
 }  // namespace eyrie::import

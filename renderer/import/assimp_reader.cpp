@@ -84,9 +84,9 @@ absl::StatusOr<std::optional<std::string>> instead(const mesh::MappedFile& file,
 }
 
 /// Null with the importer's own message where it cannot.
-absl::StatusOr<const aiScene*> parse(Assimp::Importer& importer, const std::string& path,
-                                     const AssimpFormat& format, std::vector<std::string>& notes) {
-    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
+absl::StatusOr<const aiScene*> parse(Assimp::Importer& importer, const mesh::MappedFile& file,
+                                     const std::string& path, const AssimpFormat& format,
+                                     std::vector<std::string>& notes) {
     ASSIGN_OR_RETURN(const std::optional<std::string> text, instead(file, path, format, notes));
     if (text)
         return importer.ReadFileFromMemory(text->data(), text->size(), 0,
@@ -110,9 +110,10 @@ absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& f
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);  // none made of bones
         importer.SetIOHandler(assimpFiles(format, path).release());           // which it deletes
         std::vector<std::string> notes;
-        ASSIGN_OR_RETURN(const aiScene* scene, parse(importer, path, format, notes));
+        ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
+        ASSIGN_OR_RETURN(const aiScene* scene, parse(importer, file, path, format, notes));
         if (scene != nullptr) {
-            absl::StatusOr<TriangleMesh> mesh = gatherMeshes(*scene, format);
+            absl::StatusOr<TriangleMesh> mesh = gatherMeshes(*scene, format, textOf(file));
             std::ranges::move(log.notes(), std::back_inserter(notes));
             if (mesh.ok())
                 std::ranges::move(notes, std::back_inserter(mesh->notes));

@@ -12,9 +12,9 @@
 namespace eyrie::import {
 
 /// Reads all meshes of a file, each as often as nodes show it, with the nodes' transforms taken in
-/// double precision; models of formats in which y is up are turned so that z is. FBX and COLLADA
-/// are brought to metres by the unit that the file names, which notes say of FBX; others are in the
-/// file's own units.
+/// double precision; models of formats in which y is up are turned so that z is. FBX, COLLADA,
+/// AMF and X3D are brought to metres by the unit that the file names, which notes say of all but
+/// COLLADA; others are in the file's own units.
 /// Materials' diffuse colours, times those of vertices, become vertex colours, with the opacity as
 /// alpha; diffuse textures are named, or given where the file has them in it, for loadTextures.
 /// glTF's alpha modes are kept; in other formats a texture's alpha says what it is for. Animations

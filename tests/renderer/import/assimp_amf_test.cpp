@@ -22,7 +22,7 @@ using testing::IsEmpty;
 /// A triangle that is put at 10, 5, 2 and at 20, 5, 2 and turned by such an angle.
 std::string amfOfInstances(std::string_view angle) {
     std::string amf =
-        "<?xml version=\"1.0\"?><amf unit=\"millimeter\"><object id=\"0\"><mesh><vertices>";
+        "<?xml version=\"1.0\"?><amf unit=\"meter\"><object id=\"0\"><mesh><vertices>";
     for (const char* vertex : {"<x>0</x><y>0</y>", "<x>1</x><y>0</y>", "<x>0</x><y>1</y>"})
         amf += fmt::format("<vertex><coordinates>{}<z>0</z></coordinates></vertex>", vertex);
     amf +=

@@ -14,13 +14,15 @@ eyrie_test(mesh_synth_test LABEL unit LINK eyrie::mesh_import TBB::tbb)
 eyrie_test(reading_process_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(assimp_formats_test LABEL unit LINK eyrie::mesh_import assimp::assimp)
 eyrie_test(assimp_reader_test LABEL unit
-           SOURCES assimp_amf_test.cpp assimp_gltf_test.cpp assimp_lights_test.cpp assimp_obj_test.cpp
-                   assimp_reader_test.cpp assimp_stl_test.cpp assimp_textures_test.cpp
+           SOURCES assimp_amf_test.cpp assimp_gltf_test.cpp
+                   assimp_lights_test.cpp assimp_obj_test.cpp assimp_reader_test.cpp
+                   assimp_stl_test.cpp assimp_textures_test.cpp
            LINK eyrie::mesh_import assimp::assimp)
 eyrie_test(dxf_text_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(gltf_extensions_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(jdn_reader_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(source_lights_test LABEL unit LINK eyrie::mesh_import)
+eyrie_test(stated_unit_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(gltf_unpacking_test LABEL unit LINK eyrie::mesh_import meshoptimizer::meshoptimizer)
 eyrie_test(joined_meshes_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(mesh_reader_test LABEL unit LINK eyrie::mesh_import)
