@@ -41,6 +41,19 @@ bool isTurn(std::string_view degrees) {
     return angle != 0;
 }
 
+/// Of which Assimp has one.
+std::uint64_t countObjectsOfSeveralMeshes(std::string_view amf) {
+    constexpr std::string_view kObject = "<object", kEnd = "</object", kMesh = "<mesh";
+    std::uint64_t count = 0;
+    for (std::size_t at = amf.find(kObject); at < amf.size(); at = amf.find(kObject, at)) {
+        const std::string_view object = amf.substr(at, amf.find(kEnd, at) - at);
+        const std::size_t first = object.find(kMesh);
+        count += first != object.npos && object.find(kMesh, first + 1) != object.npos ? 1 : 0;
+        at += object.size();
+    }
+    return count;
+}
+
 }  // namespace
 
 std::optional<std::string> amfForAssimp(std::string_view amf) {
@@ -63,12 +76,18 @@ std::vector<std::string> amfCaveats(std::string_view amf) {
         ++turned;
         counted = std::min(amf.find("</instance", begin), amf.size());
     });
-    if (turned == 0)
-        return {};
-    return {fmt::format(
-        "left out the rotations of {} instances, which stand at their places as they were made: "
-        "turn them before export",
-        turned)};
+    std::vector<std::string> caveats;
+    if (turned > 0)
+        caveats.push_back(fmt::format(
+            "left out the rotations of {} instances, which stand at their places as they were "
+            "made: turn them before export",
+            turned));
+    if (const std::uint64_t objects = countObjectsOfSeveralMeshes(amf); objects > 0)
+        caveats.push_back(fmt::format(
+            "left out all but one of the meshes of {} objects, which have several: give each an "
+            "object of its own",
+            objects));
+    return caveats;
 }
 
 }  // namespace eyrie::import

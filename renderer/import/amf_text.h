@@ -12,7 +12,8 @@ namespace eyrie::import {
 /// places, and with one volume a mesh (amf_volumes.h); nothing for one that is so.
 std::optional<std::string> amfForAssimp(std::string_view amf);
 
-/// For TriangleMesh::notes: how many instances are turned, which are left as they are.
+/// For TriangleMesh::notes: how many instances are turned, which are left as they are, and how many
+/// objects have several meshes, of which one is read.
 std::vector<std::string> amfCaveats(std::string_view amf);
 
 }  // namespace eyrie::import

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/import/assimp_reader.h"
+#include "tests/renderer/import/assimp_files.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
 namespace eyrie::import {
@@ -48,6 +49,17 @@ TEST(AssimpReader, PutsInstancesOfAmfAtTheirPlacesWhateverTheirAngles) {
             mesh->notes,
             testing::Contains(HasSubstr("rotations of 2 instances")).Times(angle == "90" ? 1 : 0));
     }
+}
+
+TEST(AssimpReader, CountsObjectsOfAmfThatHaveSeveralMeshes) {
+    const test::TemporaryFolder folder;
+    const std::string one = amfOfInstances("0");
+    const std::size_t begin = one.find("<mesh>"), end = one.find("</object>");
+    std::string two = one;
+    two.insert(end, one.substr(begin, end - begin));
+    EXPECT_THAT(test::notesOfFile(folder.file("m.amf"), one), IsEmpty());
+    EXPECT_THAT(test::notesOfFile(folder.file("m.amf"), two),
+                ElementsAre(HasSubstr("all but one of the meshes of 1 objects")));
 }
 
 /// Three triangles side by side, of two volumes, the second of which has so much of its own.
