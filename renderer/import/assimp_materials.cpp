@@ -201,6 +201,8 @@ AssimpMaterials::Entry AssimpMaterials::read(const aiMaterial& material) {
     entry.withoutImage = number(drawn);
     entry.number = entry.withoutImage;
     drawn.image = readTexture(material, entry);
+    entry.isUnseen =
+        entry.colour.a <= 0 && (mode == AlphaMode::Blend || (entry.cutoff > 0 && drawn.hasImage()));
     if (!drawn.hasImage())
         return entry;
     drawn.alphaCutoff = entry.cutoff;
@@ -287,6 +289,15 @@ void AssimpMaterials::moveTo(TriangleMesh& mesh) {
                         "reflect: they are darker than they ought to be",
                         emitting_, entries_.size()));
     const std::span meshes(scene_.mMeshes, scene_.mNumMeshes);
+    const auto unseen = std::ranges::count_if(meshes, [this](const aiMesh* one) {
+        const Entry* entry = find(*one);
+        return entry != nullptr && entry->isUnseen;
+    });
+    if (unseen > 0)
+        mesh.notes.push_back(
+            fmt::format("nobody sees {} of {} meshes: their materials are see-through and have an "
+                        "alpha of 0",
+                        unseen, meshes.size()));
     const auto withoutPlaces = std::ranges::count_if(meshes, [this](const aiMesh* one) {
         const Entry* entry = find(*one);
         return entry != nullptr && entry->number != entry->withoutImage &&

@@ -46,6 +46,7 @@ private:
         std::uint16_t number = 0;        ///< in materials_
         std::uint16_t withoutImage = 0;  ///< for meshes without texture coordinates
         bool isOpaque = true;
+        bool isUnseen = false;     ///< whatever its image has
         float cutoff = 0;          ///< of alpha
         unsigned int channel = 0;  ///< of texture coordinates
         bool isProjected = false;  ///< onto meshes, whatever coordinates these have

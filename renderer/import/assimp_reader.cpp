@@ -139,7 +139,10 @@ std::optional<std::string_view> otherEndingOf(std::span<const std::byte> bytes,
                                               const AssimpFormat& format) {
     if (format.extension == ".gltf" && isGlb(bytes))
         return ".glb";
-    if (format.extension == ".glb" && std::to_integer<char>(bytes.front()) == '{')
+    std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with(kByteOrderMark))
+        text.remove_prefix(kByteOrderMark.size());
+    if (format.extension == ".glb" && text.starts_with('{'))
         return ".gltf";
     return std::nullopt;
 }

@@ -17,6 +17,9 @@ struct GltfChunks {
     std::span<const std::byte> binary;  ///< the buffer that a .glb brings along, if it does
 };
 
+/// What JSON may begin with, though glTF forbids it; Assimp refuses such files.
+inline constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
 /// Whether a file's bytes begin as a .glb's do.
 bool isGlb(std::span<const std::byte> bytes);
 

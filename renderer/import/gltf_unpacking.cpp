@@ -378,7 +378,8 @@ absl::StatusOr<std::optional<std::string>> Unpacking::run(const GltfChunks& chun
     for (const char* list : {"buffers", "bufferViews", "accessors", "meshes"})
         if (!root_.contains(list) || !root_[list].is_array())
             root_[list] = Json::array();
-    const bool isMended = mendGltf(root_, notes);
+    const bool hasMark = chunks.json.starts_with(kByteOrderMark);
+    const bool isMended = mendGltf(root_, notes) || hasMark;
     lookForGeometry();
     if (!isMended && !isNeeded())
         return std::nullopt;

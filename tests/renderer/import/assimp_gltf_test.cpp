@@ -115,6 +115,31 @@ TEST(AssimpReader, PassesPrimitivesOfGltfWithoutPositionsOver) {
     EXPECT_EQ(other->triangles.size(), 1U) << "of the second node's mesh";
 }
 
+TEST(AssimpReader, ReadsGltfThatBeginsWithAByteOrderMark) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.gltf"), "\xef\xbb\xbf" + std::string(test::kGltf));
+    const auto mesh = readWithAssimp(folder.file("m.gltf"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_EQ(mesh->triangles.size(), 2U);
+    EXPECT_THAT(mesh->notes, IsEmpty());
+    test::writeFile(folder.file("m.glb"), "\xef\xbb\xbf" + std::string(test::kGltf));
+    EXPECT_THAT(std::string(readWithAssimp(folder.file("m.glb")).status().message()),
+                HasSubstr("is a .gltf file by what is in it"));
+}
+
+TEST(AssimpReader, CountsMeshesOfGltfThatNobodySees) {
+    const test::TemporaryFolder folder;
+    const auto notesOf = [&](const std::string& alpha, const std::string& mode) {
+        std::string gltf = test::kGltf;
+        gltf.replace(gltf.find(",1]}"), 4, "," + alpha + "]}," + mode);
+        return test::notesOfFile(folder.file("m.gltf"), gltf);
+    };
+    EXPECT_THAT(notesOf("0", R"("alphaMode":"BLEND")"),
+                ElementsAre(HasSubstr("nobody sees 1 of 1 meshes")));
+    EXPECT_THAT(notesOf("0.01", R"("alphaMode":"BLEND")"), IsEmpty());
+    EXPECT_THAT(notesOf("0", R"("alphaMode":"OPAQUE")"), IsEmpty());
+}
+
 /// Of two triangles, the second of which may have a corner that is no vertex.
 std::string gltfOfTwoTriangles(int lastCorner) {
     const std::string base64 =
