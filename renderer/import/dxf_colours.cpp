@@ -62,6 +62,11 @@ std::optional<fabric::Rgba> ownColourOf(const DxfRecord& record) {
     return colourOf(index < 0 && index > -kByLayer ? -index : index);
 }
 
+bool isByLayer(const DxfRecord& entity) {
+    return dxfNumberOf(entity.value(kIndex), kByLayer) == kByLayer &&
+           entity.value(kTrueColour).empty();
+}
+
 }  // namespace
 
 DxfColours::DxfColours(std::string_view dxf) {
@@ -76,15 +81,52 @@ DxfColours::DxfColours(std::string_view dxf) {
     forEachDxfRecord(dxf, kDxfDrawn, [&](const DxfRecord& record) {
         areAny_ = areAny_ || !record.value(kIndex).empty() || !record.value(kTrueColour).empty() ||
                   ofLayers_.contains(record.value(kLayer));
+        if (record.kind == "INSERT" && record.section == "ENTITIES")
+            inherit(record);
     });
 }
 
-fabric::Rgba DxfColours::of(const DxfRecord& entity) const {
-    if (dxfNumberOf(entity.value(kIndex), kByLayer) != kByLayer ||
-        !entity.value(kTrueColour).empty())
-        return ownColourOf(entity).value_or(kGrey);
+fabric::Rgba DxfColours::ofLayer(const DxfRecord& entity) const {
     const auto layer = ofLayers_.find(entity.value(kLayer));
     return layer == ofLayers_.end() ? kGrey : layer->second;
+}
+
+fabric::Rgba DxfColours::outsideOfBlocks(const DxfRecord& entity) const {
+    return isByLayer(entity) ? ofLayer(entity) : ownColourOf(entity).value_or(kGrey);
+}
+
+void DxfColours::inherit(const DxfRecord& insert) {
+    constexpr int kBlock = 2;
+    const fabric::Rgba own = outsideOfBlocks(insert), layer = ofLayer(insert);
+    const auto [known, isNew] = ofBlocks_.try_emplace(insert.value(kBlock), Inherited{own, layer});
+    if (!isNew && known->second.own != own)
+        known->second.own.reset();
+    if (!isNew && known->second.ofLayer != layer)
+        known->second.ofLayer.reset();
+}
+
+/// Null where its colour is its own, or its layer's.
+const std::optional<fabric::Rgba>* DxfColours::inherited(const DxfRecord& entity,
+                                                         std::string_view block) const {
+    const auto inserted = ofBlocks_.find(block);
+    const std::string_view layer = entity.value(kLayer);
+    if (block.empty() || inserted == ofBlocks_.end())
+        return nullptr;
+    if (isByLayer(entity))
+        return layer.empty() || layer == "0" ? &inserted->second.ofLayer : nullptr;
+    const bool isByBlock =
+        entity.value(kTrueColour).empty() && dxfNumberOf(entity.value(kIndex), -1) == 0;
+    return isByBlock ? &inserted->second.own : nullptr;
+}
+
+fabric::Rgba DxfColours::of(const DxfRecord& entity, std::string_view block) const {
+    const std::optional<fabric::Rgba>* const taken = inherited(entity, block);
+    return taken != nullptr ? taken->value_or(kGrey) : outsideOfBlocks(entity);
+}
+
+bool DxfColours::areSeveral(const DxfRecord& entity, std::string_view block) const {
+    const std::optional<fabric::Rgba>* const taken = inherited(entity, block);
+    return taken != nullptr && !taken->has_value();
 }
 
 std::string dxfLayerOf(const fabric::Rgba& colour) {

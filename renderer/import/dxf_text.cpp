@@ -97,6 +97,25 @@ std::map<std::string_view, glm::dvec3> basesOf(std::string_view dxf) {
     return bases;
 }
 
+/// The block that records are in, one after the other; empty outside of blocks.
+class BlockName {
+public:
+    std::string_view at(const DxfRecord& record) {
+        if (record.kind == "BLOCK")
+            name_ = record.value(2);
+        else if (record.kind == "ENDBLK" || record.section == "ENTITIES")
+            name_ = {};
+        return name_;
+    }
+
+private:
+    std::string_view name_;
+};
+
+bool isColoured(const DxfRecord& record) {
+    return record.kind == "3DFACE" || record.kind == "POLYLINE";
+}
+
 /// For the colour that the layer stands for.
 void putOnLayer(const DxfRecord& entity, std::string_view layer, MendedText& mended) {
     constexpr int kLayer = 8;
@@ -150,11 +169,13 @@ std::optional<std::string> dxfForAssimp(std::string_view dxf) {
     const DxfColours colours(dxf);
     MendedText mended(dxf);
     Placing placing;
+    BlockName blockName;
     forEachDxfRecord(dxf, kDxfDrawn, [&](const DxfRecord& record) {
+        const std::string_view around = blockName.at(record);
         if (!isRead(record.kind))
             mended.replace(record.begin, record.text.size(), "");
-        if (colours.areAny() && (record.kind == "3DFACE" || record.kind == "POLYLINE"))
-            putOnLayer(record, dxfLayerOf(colours.of(record)), mended);
+        if (colours.areAny() && isColoured(record))
+            putOnLayer(record, dxfLayerOf(colours.of(record, around)), mended);
         if (record.kind == "VERTEX")
             showEdges(record, mended);
         if (record.kind != "INSERT" || record.section != "ENTITIES")
@@ -175,12 +196,16 @@ std::optional<std::string> dxfForAssimp(std::string_view dxf) {
 }
 
 std::vector<std::string> dxfCaveats(std::string_view dxf) {
-    std::uint64_t misplaced = 0, surfaces = 0;
+    std::uint64_t misplaced = 0, surfaces = 0, grey = 0;
+    const DxfColours colours(dxf);
     Placing placing;
+    BlockName blockName;
     std::set<std::string_view> kinds;
     forEachDxfRecord(dxf, kDxfDrawn, [&](const DxfRecord& record) {
         if (record.kind == "INSERT" && record.section == "ENTITIES")
             misplaced += placing.isRight(Insert(record)) ? 0 : 1;
+        if (const std::string_view around = blockName.at(record); isColoured(record))
+            grey += colours.areSeveral(record, around) ? 1 : 0;
         if (!isLostSurface(record))
             return;
         ++surfaces;
@@ -197,6 +222,11 @@ std::vector<std::string> dxfCaveats(std::string_view dxf) {
             fmt::format("left out {} surfaces of the kinds {}, which are not read: turn them into "
                         "3DFACEs or polyface meshes before export",
                         surfaces, fmt::join(kinds, ", ")));
+    if (grey > 0)
+        caveats.push_back(fmt::format(
+            "{} surfaces of blocks are grey: they have the colour of what inserts the block, which "
+            "is inserted with several; explode such blocks before export",
+            grey));
     return caveats;
 }
 

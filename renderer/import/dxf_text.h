@@ -16,8 +16,8 @@ namespace eyrie::import {
 /// layers are called by those (dxf_colours.h).
 std::optional<std::string> dxfForAssimp(std::string_view dxf);
 
-/// For TriangleMesh::notes: blocks that are not where the file has them, even so, and surfaces that
-/// are not read.
+/// For TriangleMesh::notes: blocks that are not where the file has them, even so, surfaces that are
+/// not read, and ones that have no colour, as they ought to have several.
 std::vector<std::string> dxfCaveats(std::string_view dxf);
 
 }  // namespace eyrie::import

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/dxf_text.h"
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -163,6 +164,61 @@ TEST(DxfForAssimp, HasColoursOfLayersAndOnesOfRedGreenAndBlue) {
     EXPECT_EQ(colourOf("62\n1\n", layers), red) << "on no layer";
     EXPECT_EQ(colourOf("8\nwalls\n62\n5\n420\n1056816\n", layers), own);
     EXPECT_EQ(colourOf("8\nwalls\n62\n7\n", layers), grey);
+}
+
+struct Coloured {
+    std::vector<fabric::Rgba> colours;  ///< each once
+    std::vector<std::string> notes;
+};
+
+/// Of a face with such groups in a block that is inserted with each of these.
+Coloured colouredOf(const std::string& face, const std::vector<std::string>& inserts) {
+    const std::string block = "0\n3DFACE\n" + face + placeOf(10, 0, 0, 0) + placeOf(11, 1, 0, 0) +
+                              placeOf(12, 1, 1, 0) + placeOf(13, 1, 1, 0);
+    std::string dxf =
+        "0\nSECTION\n2\nTABLES\n0\nLAYER\n2\nwalls\n62\n1\n0\nLAYER\n2\nroof\n62\n3\n0\nENDSEC\n"
+        "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nB\n10\n0\n20\n0\n30\n0\n" +
+        block + "0\nENDBLK\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
+    for (const std::string& insert : inserts) dxf += "0\nINSERT\n2\nB\n" + insert;
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.dxf"), dxf + "0\nENDSEC\n0\nEOF\n");
+    const auto mesh = readWithAssimp(folder.file("m.dxf"));
+    EXPECT_TRUE(mesh.ok()) << mesh.status();
+    Coloured found;
+    for (const fabric::Rgba& colour : mesh.ok() ? mesh->colours : std::vector<fabric::Rgba>())
+        if (std::ranges::count(found.colours, colour) == 0)
+            found.colours.push_back(colour);
+    if (mesh.ok())
+        found.notes = mesh->notes;
+    return found;
+}
+
+TEST(DxfForAssimp, HasTheColoursThatBlocksAreInsertedWith) {
+    const fabric::Rgba red{255, 0, 0, 255}, green{0, 255, 0, 255}, grey{153, 153, 153, 255};
+    const std::string walls = "8\nwalls\n", roof = "8\nroof\n", green3 = "62\n3\n";
+    struct Case {
+        std::string face;
+        std::vector<std::string> inserts;
+        fabric::Rgba colour;
+    };
+    for (const auto& [face, inserts, colour] :
+         {Case{"8\n0\n62\n0\n", {green3 + walls}, green},  // BYBLOCK
+          {"8\n0\n62\n0\n", {walls}, red},
+          {"8\n0\n", {green3 + walls, walls}, red},
+          {"", {roof}, green},
+          {"8\nwalls\n", {roof}, red},
+          {"8\n0\n62\n1\n", {roof}, red},
+          {"8\nroof\n62\n0\n", {green3 + walls, roof}, green},
+          {"8\n0\n62\n0\n", {"8\n0\n"}, grey}}) {
+        const Coloured found = colouredOf(face, inserts);
+        EXPECT_THAT(found.colours, ElementsAre(colour)) << face << inserts[0];
+        EXPECT_THAT(found.notes, IsEmpty()) << face << inserts[0];
+    }
+    for (const std::string face : {"8\n0\n62\n0\n", "8\n0\n"}) {
+        const Coloured found = colouredOf(face, {walls, roof});
+        EXPECT_THAT(found.colours, ElementsAre(grey)) << face;
+        EXPECT_THAT(found.notes, ElementsAre(HasSubstr("1 surfaces of blocks are grey"))) << face;
+    }
 }
 
 TEST(DxfCaveats, CountBlocksThatAreNotPutAsTheFileHasThem) {
