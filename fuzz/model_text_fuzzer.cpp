@@ -20,6 +20,7 @@
 #include "renderer/import/stl_text.h"
 #include "renderer/import/three_mf.h"
 #include "renderer/import/uri_name.h"
+#include "renderer/import/x3d_caveats.h"
 #include "renderer/import/x3d_text.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -27,6 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     const auto bytes = std::as_bytes(std::span(data, size));
     x3dForAssimp(text);
+    x3dCaveats(text);
     colladaForAssimp(text);
     if (const auto amf = amfForAssimp(text); amf && amf->size() > 14 * size)
         std::abort();

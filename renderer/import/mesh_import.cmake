@@ -4,7 +4,7 @@ add_library(eyrie_mesh_import amf_text.cpp amf_volumes.cpp assimp_axes.cpp assim
                               mesh_sharing.cpp mesh_split.cpp mesh_spool.cpp
                               mesh_synth.cpp named_images.cpp normals.cpp obj_materials.cpp obj_text.cpp obj_textures.cpp off_text.cpp orient.cpp pack_mesh.cpp part_mesh.cpp
                               ply_faces.cpp ply_header.cpp ply_layout.cpp ply_reader.cpp ply_textures.cpp ply_values.cpp
-                              ply_vertices.cpp ply_writer.cpp polygon.cpp reading_process.cpp sgi_image.cpp source_lights.cpp stated_unit.cpp stl_colours.cpp stl_length.cpp stl_text.cpp texture_files.cpp three_mf.cpp uri_name.cpp weld.cpp x3d_text.cpp xml_tag.cpp zip_parts.cpp)
+                              ply_vertices.cpp ply_writer.cpp polygon.cpp reading_process.cpp sgi_image.cpp source_lights.cpp stated_unit.cpp stl_colours.cpp stl_length.cpp stl_text.cpp texture_files.cpp three_mf.cpp uri_name.cpp weld.cpp x3d_caveats.cpp x3d_text.cpp xml_tag.cpp zip_parts.cpp)
 add_library(eyrie::mesh_import ALIAS eyrie_mesh_import)
 target_link_libraries(eyrie_mesh_import PUBLIC eyrie::fabric eyrie::mesh
                                         PRIVATE assimp::assimp meshoptimizer::meshoptimizer nlohmann_json::nlohmann_json eyrie::access eyrie::stb fmt::fmt PkgConfig::MINIZIP TBB::tbb)

@@ -10,6 +10,7 @@
 #include <optional>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/mat2x2.hpp>
@@ -101,8 +102,63 @@ std::string stripsForAssimp(std::string_view tag, std::uint64_t fileBytes) {
                        tag.substr(std::string_view("<TriangleStripSet").size()));
 }
 
-constexpr std::array<std::string_view, 4> kMended = {"<ImageTexture", "<TextureTransform",
-                                                     "<TriangleStripSet", "</TriangleStripSet"};
+/// Indices with those of each face, which ends with -1, the other way around.
+std::string turned(std::string_view indices) {
+    std::string result;
+    std::vector<std::string_view> face;
+    while (true) {
+        indices.remove_prefix(std::min(indices.find_first_not_of(kBlank), indices.size()));
+        const std::string_view index = indices.substr(0, indices.find_first_of(kBlank));
+        indices.remove_prefix(index.size());
+        if (!index.empty() && index != "-1") {
+            face.push_back(index);
+            continue;
+        }
+        for (auto corner = face.rbegin(); corner != face.rend(); ++corner)
+            result.append(*corner).append(" ");
+        face.clear();
+        if (index.empty())
+            return result;
+        result += "-1 ";
+    }
+}
+
+/// With corners that go counter-clockwise, and what each has with them.
+std::string facesForAssimp(std::string_view tag) {
+    std::string result(tag);
+    if (xmlAttribute(tag, "ccw") != "false")
+        return result;
+    const auto turn = [&](std::string_view name) {
+        const std::string_view value = xmlAttribute(result, name);
+        if (!value.empty())
+            result = withValue(result, value, turned(value));
+    };
+    turn("coordIndex");
+    turn("texCoordIndex");
+    if (xmlAttribute(tag, "colorPerVertex") != "false")  // else they are of faces
+        turn("colorIndex");
+    if (xmlAttribute(tag, "normalPerVertex") != "false")
+        turn("normalIndex");
+    return result;
+}
+
+/// A tag that is mended, and how.
+struct Mending {
+    std::string_view opening;
+    std::string (*mended)(std::string_view tag, std::uint64_t fileBytes);
+};
+constexpr std::array kMendings = {
+    Mending{"<ImageTexture",
+            [](std::string_view tag, std::uint64_t) { return imageForAssimp(tag); }},
+    Mending{"<TextureTransform",
+            [](std::string_view tag, std::uint64_t) { return transformForAssimp(tag); }},
+    Mending{"<TriangleStripSet", stripsForAssimp},
+    Mending{
+        "</TriangleStripSet",
+        [](std::string_view, std::uint64_t) { return std::string("</IndexedTriangleStripSet>"); }},
+    Mending{"<IndexedFaceSet",
+            [](std::string_view tag, std::uint64_t) { return facesForAssimp(tag); }},
+};
 
 /// The end of a comment or of characters that are none of XML's; nothing of a tag.
 std::optional<std::size_t> endOfOther(std::string_view text) {
@@ -127,15 +183,6 @@ std::string withoutCommas(std::string_view tag) {
     return result;
 }
 
-std::string tagForAssimp(std::string_view tag, std::uint64_t fileBytes) {
-    if (tag.starts_with(kMended[0]))
-        return imageForAssimp(tag);
-    if (tag.starts_with(kMended[1]))
-        return transformForAssimp(tag);
-    return tag.starts_with(kMended[2]) ? stripsForAssimp(tag, fileBytes)
-                                       : "</IndexedTriangleStripSet>";
-}
-
 }  // namespace
 
 std::string x3dForAssimp(std::string_view x3d) {
@@ -145,11 +192,13 @@ std::string x3dForAssimp(std::string_view x3d) {
         const std::string_view rest = x3d.substr(at);
         const std::optional<std::size_t> other = endOfOther(rest);
         const std::string_view tag = rest.substr(0, other ? *other : endOfTag(rest));
-        const bool isMended =
-            std::ranges::any_of(kMended, [&](auto begin) { return rest.starts_with(begin); });
+        const auto* const mending = std::ranges::find_if(
+            kMendings, [&](const Mending& one) { return rest.starts_with(one.opening); });
+        const bool isMended = mending != kMendings.end();
         if (isMended || (!other && tag.find(',') != tag.npos)) {
             result.append(x3d.substr(copied, at - copied))
-                .append(withoutCommas(isMended ? tagForAssimp(tag, x3d.size()) : std::string(tag)));
+                .append(
+                    withoutCommas(isMended ? mending->mended(tag, x3d.size()) : std::string(tag)));
             copied = at + tag.size();
         }
         at = x3d.find('<', at + tag.size());
