@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -43,20 +45,41 @@ std::size_t countWords(std::string_view line) {
     return count;
 }
 
+std::vector<std::string_view> wordsOf(std::string_view line) {
+    std::vector<std::string_view> words;
+    for (std::string_view word = takeWord(line); !word.empty(); word = takeWord(line))
+        words.push_back(word);
+    return words;
+}
+
+/// As far as numbers are rounded. Vertices that no face has may have none.
+bool isNormal(std::span<const std::string_view> words) {
+    constexpr double kRounding = 0.02;
+    double square = 0;
+    for (const std::string_view word : words) {
+        double number = 0;
+        std::from_chars(word.data(), word.data() + word.size(), number);
+        square += number * number;
+    }
+    return square == 0 || std::abs(std::sqrt(square) - 1) < kRounding;
+}
+
 /// What the header's first word says of vertices.
 struct OffKind {
     bool hasPlaces = false;  ///< on a texture
     bool hasColours = false;
     bool hasNormals = false;
-    bool isOther = false;  ///< has something else, too, or what writers disagree on
+    bool isNc = false;     ///< which some have as it stands, and MeshLab with colours first
+    bool isOther = false;  ///< has something else, too
 
     explicit OffKind(std::string_view word) {
         constexpr std::string_view kEnd = "OFF";
         isOther = !word.ends_with(kEnd);
+        isNc = word == "NCOFF";
         while (!isOther && word != kEnd) {
             const bool isOfPlaces = word.starts_with("ST");
-            // MeshLab's "NC" has colours before normals, though it reads them behind those.
-            isOther = !isOfPlaces && word[0] != 'C' && (word[0] != 'N' || word[1] == 'C');
+            isOther =
+                !isOfPlaces && word[0] != 'C' && (word[0] != 'N' || (word[1] == 'C' && !isNc));
             hasPlaces = hasPlaces || isOfPlaces;
             hasColours = hasColours || word[0] == 'C';
             hasNormals = hasNormals || word[0] == 'N';
@@ -122,6 +145,49 @@ private:
     std::uint64_t vertices_ = 0, faces_ = 0;
 };
 
+/// In which order vertices have what "NC" stands for.
+enum class NcOrder { Unknown, NormalsFirst, ColoursFirst };
+
+constexpr std::size_t kPlace = 3, kNormal = 3, kLeastOfNc = 9, kMostOfNc = 10;
+
+/// By what is of a normal's length in all of them; as the word has it where both may be.
+NcOrder ncOrderOf(OffLines lines) {
+    bool areFirst = true, areLast = true;
+    std::string_view line;
+    for (std::uint64_t i = 0; i < lines.vertices() && !(line = lines.next()).empty(); ++i) {
+        const std::vector<std::string_view> words = wordsOf(line);
+        if (words.size() < kLeastOfNc || words.size() > kMostOfNc)
+            return NcOrder::Unknown;
+        areFirst = areFirst && isNormal(std::span(words).subspan(kPlace, kNormal));
+        areLast = areLast && isNormal(std::span(words).last(kNormal));
+    }
+    return areFirst ? NcOrder::NormalsFirst : areLast ? NcOrder::ColoursFirst : NcOrder::Unknown;
+}
+
+/// With normals before colours, of which Assimp knows by another word.
+std::optional<std::string> ncForAssimp(std::string_view off, OffLines lines) {
+    const NcOrder order = ncOrderOf(lines);
+    if (order == NcOrder::Unknown)
+        return std::nullopt;
+    MendedText mended(off);
+    const auto positionOf = [off](std::string_view part) {
+        return static_cast<std::size_t>(part.data() - off.data());
+    };
+    mended.replace(positionOf(lines.word()), lines.word().size(), "CNOFF");
+    std::string_view line;
+    for (std::uint64_t i = 0;
+         order == NcOrder::ColoursFirst && i < lines.vertices() && !(line = lines.next()).empty();
+         ++i) {
+        const std::vector<std::string_view> words = wordsOf(line);
+        const auto normal = std::span(words).last(kNormal);
+        const auto colour = std::span(words).subspan(kPlace, words.size() - kPlace - kNormal);
+        const std::size_t begin = positionOf(words[kPlace]);
+        mended.replace(begin, positionOf(words.back()) + words.back().size() - begin,
+                       fmt::format("{} {}", fmt::join(normal, " "), fmt::join(colour, " ")));
+    }
+    return mended.finish();
+}
+
 }  // namespace
 
 std::optional<std::string> offForAssimp(std::string_view off) {
@@ -130,6 +196,8 @@ std::optional<std::string> offForAssimp(std::string_view off) {
     const OffKind kind(lines.word());
     if (!lines.isRead() || kind.isOther)
         return std::nullopt;
+    if (kind.isNc)
+        return ncForAssimp(off, lines);
     MendedText mended(off);
     const auto positionOf = [off](const char* at) {
         return static_cast<std::size_t>(at - off.data());
@@ -151,7 +219,8 @@ std::optional<std::string> offForAssimp(std::string_view off) {
 }
 
 std::vector<std::string> offCaveats(std::string_view off) {
-    OffLines lines(off);
+    const std::optional<std::string> mended = offForAssimp(off);
+    OffLines lines(mended ? std::string_view(*mended) : off);
     if (!lines.isRead())
         return {};
     const OffKind kind(lines.word());

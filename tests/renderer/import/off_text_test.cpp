@@ -54,7 +54,22 @@ TEST(OffForAssimp, HasWhatVerticesHaveWhereItsHeaderNamesThatInAnotherOrder) {
             EXPECT_THAT(read(offOf(kind, rest)).colours, Each(fabric::Rgba{255, 128, 0, 255}))
                 << kind << rest;
     EXPECT_THAT(read(offOf("NST", "0 0 -1 .25 .75")).normals, Each(glm::vec3(0, 0, -1)));
-    EXPECT_FALSE(offForAssimp(offOf("NC", "1 1 1 1 0 0 -1"))) << "whose order nobody knows";
+}
+
+TEST(OffForAssimp, TellsNormalsFromColoursByTheirLength) {
+    for (const char* rest : {"0.6 0 -0.8 1 .5 0", "0.6 0 -0.8 255 128 0 255", "1 .5 0 1 0.6 0 -0.8",
+                             "255 128 0 255 0.6 0 -0.8 # MeshLab's", "255 128 0 0.6 0 -0.8\r"}) {
+        const TriangleMesh mesh = read(offOf("NC", rest));
+        EXPECT_THAT(mesh.colours, Each(fabric::Rgba{255, 128, 0, 255})) << rest;
+        EXPECT_THAT(mesh.normals, Each(glm::vec3(0.6F, 0, -0.8F))) << rest;
+        EXPECT_THAT(mesh.notes, Not(testing::Contains(HasSubstr("opacity")))) << rest;
+    }
+    EXPECT_THAT(read(offOf("NC", "0 0 1 1 0 0")).normals, Each(glm::vec3(0, 0, 1)))
+        << "which may be either";
+    EXPECT_THAT(offCaveats(offOf("NC", "1 .5 0 .5 0 0 -1")),
+                ElementsAre(HasSubstr("the opacity of 3 vertices")));
+    EXPECT_FALSE(offForAssimp(offOf("NC", "1 1 1 1 0 0 -3"))) << "neither";
+    EXPECT_FALSE(offForAssimp(offOf("NC", "0 0 1 1"))) << "too few";
 }
 
 TEST(OffCaveats, CountOpacitiesBehindNormals) {
