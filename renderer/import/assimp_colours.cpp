@@ -21,6 +21,9 @@ bool isBelowZero(const aiColor4D& colour) {
 
 bool isNothing(const aiColor4D& colour) { return colour == aiColor4D(0, 0, 0, 0); }
 
+/// Assimp's of facets of STL without a colour, beside others that have one.
+bool isNoneOfStl(const aiColor4D& colour) { return colour == aiColor4D(0.6F, 0.6F, 0.6F, 0.6F); }
+
 }  // namespace
 
 AssimpColours::AssimpColours(const aiScene& scene, const AssimpFormat& format) : format_(format) {
@@ -76,6 +79,8 @@ aiColor4D AssimpColours::of(unsigned int mesh, unsigned int vertex) const {
     if (ofMesh.ofAll)
         return *ofMesh.ofAll;
     aiColor4D colour = ofMesh.colours[vertex];
+    if (format_.extension == ".stl" && isNoneOfStl(colour))
+        colour.a = 1;
     if (format_.extension == ".amf" && isNothing(colour))
         return {1, 1, 1, 1};
     if (ofMesh.areShifted)

@@ -78,6 +78,22 @@ TEST(AssimpReader, SaysHowLongABinaryStlOughtToBe) {
     }
 }
 
+/// The first is red, and the second, without the highest bit, has no colour.
+TEST(AssimpReader, HasFacetsOfAnStlWithoutAColourOpaque) {
+    const test::TemporaryFolder folder;
+    std::string file(84 + 2 * 50, '\0');
+    file[80] = 2;
+    for (const std::size_t facet : {84U, 134U}) file[facet + 26] = file[facet + 40] = '\x40';
+    file[84 + 49] = '\xFC';
+    test::writeFile(folder.file("m.stl"), file);
+    const auto mesh = readWithAssimp(folder.file("m.stl"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_EQ(mesh->triangles.size(), 2U);
+    EXPECT_EQ(mesh->colours[mesh->triangles[0][0]], (fabric::Rgba{255, 0, 0, 255}));
+    EXPECT_EQ(mesh->colours[mesh->triangles[1][0]], (fabric::Rgba{153, 153, 153, 255}));
+    EXPECT_THAT(mesh->notes, IsEmpty());
+}
+
 /// The first facet is red, of its own; the second has the green of the part. Those with the highest
 /// bit the other way around are MeshLab's.
 TEST(AssimpReader, TakesColoursOfAnStlAsMaterialiseMeansThem) {
