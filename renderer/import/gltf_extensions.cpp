@@ -61,6 +61,10 @@ constexpr std::array kLosses = {
     Loss{"KHR_materials_transmission",
          "what is clear as glass (KHR_materials_transmission) is opaque: give its materials the "
          "alphaMode BLEND and less alpha"},
+    Loss{
+        "KHR_materials_unlit",
+        "what is to be shown as it is (KHR_materials_unlit), as of photographs, is lit as the rest "
+        "is, and darker where no light falls"},
     Loss{"KHR_node_visibility",
          "shows nodes, too, that are not to be seen (KHR_node_visibility): leave these out"},
 };

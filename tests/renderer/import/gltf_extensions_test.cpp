@@ -83,7 +83,9 @@ TEST(GltfExtensions, AreWhatTheFileSaysTheyAreAndNotWhatItsTextsSay) {
 }
 
 TEST(GltfExtensions, ThatMoveRepeatHideOrClearMeshesAreToldOfWhereTheyAreLeftOut) {
-    EXPECT_THAT(gltfCaveats(bytesOf(R"({"extensionsUsed": ["KHR_materials_unlit"]})")), IsEmpty());
+    EXPECT_THAT(gltfCaveats(bytesOf(R"({"extensionsUsed": ["KHR_materials_sheen"]})")), IsEmpty());
+    EXPECT_THAT(gltfCaveats(bytesOf(R"({"extensionsUsed": ["KHR_materials_unlit"]})")),
+                testing::ElementsAre(testing::HasSubstr("lit as the rest is")));
     EXPECT_THAT(
         gltfCaveats(bytesOf(R"({"extensionsUsed": ["CESIUM_RTC", "EXT_mesh_gpu_instancing"]})")),
         ElementsAre(HasSubstr("CESIUM_RTC"), HasSubstr("EXT_mesh_gpu_instancing")));
