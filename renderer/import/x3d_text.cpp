@@ -95,9 +95,15 @@ std::string indicesOfStrips(std::string_view counts, std::uint64_t mostVertices)
     }
 }
 
+/// What mending a tag may ask of the file.
+struct Source {
+    std::string_view x3d;
+    bool hasMaterials;
+};
+
 /// A file has no more vertices than bytes.
-std::string stripsForAssimp(std::string_view tag, std::uint64_t fileBytes) {
-    const std::string indices = indicesOfStrips(xmlAttribute(tag, "stripCount"), fileBytes);
+std::string stripsForAssimp(std::string_view tag, const Source& source) {
+    const std::string indices = indicesOfStrips(xmlAttribute(tag, "stripCount"), source.x3d.size());
     return fmt::format("<IndexedTriangleStripSet index='{}'{}", indices,
                        tag.substr(std::string_view("<TriangleStripSet").size()));
 }
@@ -142,22 +148,35 @@ std::string facesForAssimp(std::string_view tag) {
     return result;
 }
 
+/// With a plain material where it has none, and others have: Assimp gives it that of another.
+std::string shapeForAssimp(std::string_view tag, const Source& source) {
+    constexpr std::string_view kPlain =
+        "<Appearance><Material diffuseColor='0.8 0.8 0.8'/></Appearance>";
+    const auto begin = static_cast<std::size_t>(tag.data() - source.x3d.data()) + tag.size();
+    const std::string_view content =
+        source.x3d.substr(begin, source.x3d.find("</Shape", begin) - begin);
+    const bool isPlain =
+        source.hasMaterials && !tag.ends_with("/>") && content.find("<Appearance") == content.npos;
+    return std::string(tag).append(isPlain ? kPlain : std::string_view());
+}
+
 /// A tag that is mended, and how.
 struct Mending {
     std::string_view opening;
-    std::string (*mended)(std::string_view tag, std::uint64_t fileBytes);
+    std::string (*mended)(std::string_view tag, const Source& source);
 };
 constexpr std::array kMendings = {
     Mending{"<ImageTexture",
-            [](std::string_view tag, std::uint64_t) { return imageForAssimp(tag); }},
+            [](std::string_view tag, const Source&) { return imageForAssimp(tag); }},
     Mending{"<TextureTransform",
-            [](std::string_view tag, std::uint64_t) { return transformForAssimp(tag); }},
+            [](std::string_view tag, const Source&) { return transformForAssimp(tag); }},
     Mending{"<TriangleStripSet", stripsForAssimp},
     Mending{
         "</TriangleStripSet",
-        [](std::string_view, std::uint64_t) { return std::string("</IndexedTriangleStripSet>"); }},
+        [](std::string_view, const Source&) { return std::string("</IndexedTriangleStripSet>"); }},
+    Mending{"<Shape", shapeForAssimp},
     Mending{"<IndexedFaceSet",
-            [](std::string_view tag, std::uint64_t) { return facesForAssimp(tag); }},
+            [](std::string_view tag, const Source&) { return facesForAssimp(tag); }},
 };
 
 /// The end of a comment or of characters that are none of XML's; nothing of a tag.
@@ -186,6 +205,7 @@ std::string withoutCommas(std::string_view tag) {
 }  // namespace
 
 std::string x3dForAssimp(std::string_view x3d) {
+    const Source source{x3d, x3d.find("<Material") != x3d.npos};
     std::string result;
     std::size_t copied = 0;
     for (std::size_t at = x3d.find('<'); at < x3d.size();) {
@@ -197,8 +217,7 @@ std::string x3dForAssimp(std::string_view x3d) {
         const bool isMended = mending != kMendings.end();
         if (isMended || (!other && tag.find(',') != tag.npos)) {
             result.append(x3d.substr(copied, at - copied))
-                .append(
-                    withoutCommas(isMended ? mending->mended(tag, x3d.size()) : std::string(tag)));
+                .append(withoutCommas(isMended ? mending->mended(tag, source) : std::string(tag)));
             copied = at + tag.size();
         }
         at = x3d.find('<', at + tag.size());

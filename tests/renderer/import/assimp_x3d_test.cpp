@@ -55,6 +55,32 @@ TEST(AssimpReader, TurnsFacesOfX3dWhoseCornersGoClockwise) {
     }
 }
 
+TEST(AssimpReader, HasShapesOfX3dWithoutAMaterialPlain) {
+    const test::TemporaryFolder folder;
+    const auto shapeOf = [](int x, const std::string& appearance) {
+        return fmt::format(
+            "<Shape>{}<IndexedFaceSet coordIndex='0 1 2 -1'><Coordinate "
+            "point='{} 0 0 9 1 0 9 0 1'/></IndexedFaceSet></Shape>",
+            appearance, x);
+    };
+    const std::string red = "<Appearance><Material diffuseColor='1 0 0'/></Appearance>";
+    const auto coloursOf = [&](const std::string& appearance) {
+        test::writeFile(folder.file("m.x3d"), "<?xml version='1.0'?><X3D><Scene>" +
+                                                  shapeOf(0, appearance) + shapeOf(1, "") +
+                                                  "</Scene></X3D>");
+        const auto mesh = readWithAssimp(folder.file("m.x3d"));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        std::vector<fabric::Rgba> colours;
+        for (std::size_t i = 0; mesh.ok() && i < mesh->colours.size(); ++i)
+            if (mesh->positions[i].x < 9)
+                colours.push_back(mesh->colours[i]);
+        return colours;
+    };
+    EXPECT_THAT(coloursOf(red), testing::UnorderedElementsAre(fabric::Rgba{255, 0, 0, 255},
+                                                              fabric::Rgba{204, 204, 204, 255}));
+    EXPECT_THAT(coloursOf(""), IsEmpty());
+}
+
 TEST(AssimpReader, CountsWhatX3dHidesAndTrianglesThatAreSeenFromBehind) {
     const test::TemporaryFolder folder;
     const auto notesOf = [&](const std::string& shape, const std::string& geometry) {
