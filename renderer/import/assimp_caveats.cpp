@@ -68,12 +68,36 @@ std::vector<std::string> lwoCaveats(std::span<const std::byte> bytes) {
         length, bytes.size())};
 }
 
+/// Assimp passes over them, and edges are smooth of which they say that they are sharp.
+class SmoothingGroups {
+public:
+    void add(std::string_view line) {
+        constexpr std::string_view kNormal = "vn ", kGroup = "s ";
+        haveNormals_ = haveNormals_ || line.starts_with(kNormal);
+        if (!line.starts_with(kGroup))
+            return;
+        line = line.substr(0, line.find_first_of("\r\n")).substr(kGroup.size());
+        line = line.substr(0, line.find_last_not_of(" \t") + 1);
+        isAnyFlat_ = isAnyFlat_ || line == "off" || line == "0";
+        areSeveral_ = areSeveral_ || (!last_.empty() && line != last_);
+        last_ = line;
+    }
+
+    bool areLost() const { return !haveNormals_ && (isAnyFlat_ || areSeveral_); }
+
+private:
+    std::string_view last_;
+    bool haveNormals_ = false, isAnyFlat_ = false, areSeveral_ = false;
+};
+
 std::vector<std::string> objCaveats(std::string_view text) {
     constexpr std::array<std::string_view, 8> kLeftOut = {"surf ", "curv ", "curv2 ", "bzp ",
                                                           "bsp ",  "cdc ",  "cdp ",   "call "};
     std::uint64_t lines = 0;
+    SmoothingGroups groups;
     for (std::size_t at = 0; at < text.size();) {
         const std::string_view line = text.substr(at);
+        groups.add(line);
         const auto begins = [&](std::string_view word) { return line.starts_with(word); };
         lines += std::ranges::any_of(kLeftOut, begins) ? 1 : 0;
         at = std::min(text.find('\n', at), text.size() - 1) + 1;
@@ -84,6 +108,10 @@ std::vector<std::string> objCaveats(std::string_view text) {
             fmt::format("left out {} free-form surfaces, curves or calls of other files: turn them "
                         "into polygons, of this file, before export",
                         lines));
+    if (groups.areLost())
+        caveats.emplace_back(
+            "left out its smoothing groups, by which it has sharp edges: it has no normals, and "
+            "its edges are smooth unless creases are asked for (--normals crease=DEGREES)");
     return caveats;
 }
 

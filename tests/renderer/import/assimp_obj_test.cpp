@@ -56,6 +56,22 @@ TEST(AssimpReader, SaysWhatObjsHaveThatIsNoPolygon) {
                 ElementsAre(HasSubstr("left out 1 free-form surfaces")));
 }
 
+TEST(AssimpReader, SaysThatSmoothingGroupsOfAnObjAreLeftOutWhereNothingElseHasItsEdges) {
+    const test::TemporaryFolder folder;
+    const auto notesOf = [&](const std::string& begin, const std::string& between) {
+        return test::notesOfFile(
+            folder.file("m.obj"),
+            begin + "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" + between + "v 0 0 1\nf 1 4 2\n");
+    };
+    for (const char* group : {"", "s 1\n", "s 1 \r\n"})
+        EXPECT_THAT(notesOf(group, group), IsEmpty()) << group;
+    for (const auto& [first, second] :
+         {std::pair("s 1\n", "s 2\r\n"), {"s off\n", ""}, {"s 0\n", "s 1\n"}}) {
+        EXPECT_THAT(notesOf(first, second), ElementsAre(HasSubstr("its smoothing groups")));
+        EXPECT_THAT(notesOf(std::string("vn 0 0 1\n") + first, second), IsEmpty());
+    }
+}
+
 TEST(AssimpReader, ReadsObjsWithIndentsCommentsAndNumbersThatBeginWithTheirPoint) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("m.obj"),
