@@ -18,6 +18,7 @@
 #include "cli/stop_signal.h"
 #include "cli/tune_mesh.h"
 #include "fabric/status.h"
+#include "renderer/import/companion_folder.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_reader.h"
 #include "renderer/mesh/eym_format.h"
@@ -54,6 +55,7 @@ absl::StatusOr<MeshTuning> importTuned(const MeshImportChoices& choices,
 absl::Status importMesh(const MeshImportChoices& choices) {
     StopSignal stop;
     RETURN_IF_ERROR(checkEnding(choices, ".eym"));
+    RETURN_IF_ERROR(fabric::withContext(import::keepCompanionsBelow(choices.within), "--within"));
     ASSIGN_OR_RETURN(const import::MeshImportOptions how, importOptions(choices));
     ASSIGN_OR_RETURN(const OutputReader reader, OutputReader::await(choices.out, stop.token()));
     MeshTuning tuning;
@@ -129,6 +131,12 @@ void addImportMesh(CLI::App& parent, Run& run) {
                      "About as much is used; half of what there is otherwise. A PLY mesh that "
                      "would take more is imported part by part; see below")
         ->type_name("BYTES");
+    command
+        ->add_option("--within", choices->within,
+                     "Read nothing that sources name, such as material files, buffers and images, "
+                     "but what lies in this folder or below it: the rest counts as missing. For "
+                     "files of strangers, and what imports by the API have")
+        ->type_name("FOLDER");
     command->footer(
         "By parts, what does not fit --memory goes to files without a name beside the output: "
         "about\n"

@@ -16,6 +16,7 @@ struct MeshImportChoices : ImportOptions {
     std::string normals = "auto";
     std::string memory;
     std::string flight;  ///< to tune for; empty: the leaf size is `how`'s
+    std::string within;  ///< a folder beyond which no file is read that sources name
 };
 
 /// InvalidArgument where --memory or --normals cannot be understood.

@@ -206,6 +206,8 @@ absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
         order.arguments.emplace_back("--orient");
     if (!request.normals().empty())
         order.arguments.push_back("--normals=" + request.normals());
+    if (!isTerrain)
+        order.arguments.emplace_back("--within=.");  // it is run in the data folder
     return order;
 }
 

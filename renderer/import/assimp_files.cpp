@@ -15,6 +15,7 @@
 
 #include "renderer/import/amf_text.h"
 #include "renderer/import/collada_text.h"
+#include "renderer/import/companion_folder.h"
 #include "renderer/import/dxf_text.h"
 #include "renderer/import/obj_text.h"
 #include "renderer/import/obj_textures.h"
@@ -45,18 +46,38 @@ std::optional<std::string> mended(std::string_view source, const AssimpFormat& f
     return format.extension == ".x3d" ? x3dForAssimp(source) : colladaForAssimp(source);
 }
 
-/// Files as glTF's URIs name them, which Assimp takes for plain names.
-class UriFiles : public Assimp::DefaultIOSystem {
+/// The source, and what else may be read with it.
+class SourceFiles : public Assimp::DefaultIOSystem {
 public:
+    explicit SourceFiles(const std::string& path) : path_(path) {}
+
     bool Exists(const char* name) const override {
-        return DefaultIOSystem::Exists(name) ||
-               DefaultIOSystem::Exists(withoutPercents(name).c_str());
+        return mayRead(name) && DefaultIOSystem::Exists(name);
     }
 
     Assimp::IOStream* Open(const char* name, const char* mode) override {
-        return DefaultIOSystem::Exists(name)
-                   ? DefaultIOSystem::Open(name, mode)
-                   : DefaultIOSystem::Open(withoutPercents(name).c_str(), mode);
+        return mayRead(name) ? DefaultIOSystem::Open(name, mode) : nullptr;
+    }
+
+protected:
+    bool isSource(const std::string& name) const { return name == path_; }
+    bool mayRead(const std::string& name) const { return isSource(name) || mayBeCompanion(name); }
+
+    const std::string path_;
+};
+
+/// Files as glTF's URIs name them, which Assimp takes for plain names.
+class UriFiles : public SourceFiles {
+public:
+    using SourceFiles::SourceFiles;
+
+    bool Exists(const char* name) const override {
+        return SourceFiles::Exists(name) || SourceFiles::Exists(withoutPercents(name).c_str());
+    }
+
+    Assimp::IOStream* Open(const char* name, const char* mode) override {
+        return SourceFiles::Exists(name) ? SourceFiles::Open(name, mode)
+                                         : SourceFiles::Open(withoutPercents(name).c_str(), mode);
     }
 };
 
@@ -72,27 +93,30 @@ std::string_view textOf(const mesh::MappedFile& file) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-class MendedFiles : public Assimp::DefaultIOSystem {
+class MendedFiles : public SourceFiles {
 public:
+    using SourceFiles::SourceFiles;
+
     Assimp::IOStream* Open(const char* name, const char* mode) override {
         const AssimpFormat* format = findAssimpFormat(name);
+        if (format == nullptr || !isMended(*format) || !mayRead(name))
+            return SourceFiles::Open(name, mode);
         const absl::StatusOr<mesh::MappedFile> file = mesh::MappedFile::open(name);
-        if (format == nullptr || !isMended(*format) || !file.ok())
-            return DefaultIOSystem::Open(name, mode);
-        const std::optional<std::string> text = mended(textOf(*file), *format);
-        return text ? streamOf(*text) : DefaultIOSystem::Open(name, mode);
+        const std::optional<std::string> text =
+            file.ok() ? mended(textOf(*file), *format) : std::nullopt;
+        return text ? streamOf(*text) : SourceFiles::Open(name, mode);
     }
 };
 
 /// An OBJ and its material files, whose names, too, mean what findTexture() finds.
 class ObjFiles : public MendedFiles {
 public:
-    explicit ObjFiles(const std::string& path) : path_(path) {}
+    using MendedFiles::MendedFiles;
 
     Assimp::IOStream* Open(const char* name, const char* mode) override {
-        if (name == path_)
+        const std::string found = isSource(name) ? "" : findTexture(asNamed(name), path_);
+        if (isSource(name) || (found.empty() && !mayRead(name)))
             return MendedFiles::Open(name, mode);
-        const std::string found = findTexture(asNamed(name), path_);
         const auto file = mesh::MappedFile::open(found.empty() ? name : found);
         return file.ok() ? streamOf(mtlForAssimp(textOf(*file))) : MendedFiles::Open(name, mode);
     }
@@ -107,20 +131,18 @@ private:
             name.remove_prefix(folder.size());
         return std::string(name.substr(0, name.find_last_not_of(" \t") + 1));
     }
-
-    std::string path_;
 };
 
 }  // namespace
 
 std::unique_ptr<Assimp::IOSystem> assimpFiles(const AssimpFormat& format, const std::string& path) {
     if (format.isGltf())
-        return std::make_unique<UriFiles>();
+        return std::make_unique<UriFiles>(path);
     if (format.extension == ".obj")
         return std::make_unique<ObjFiles>(path);
     if (isMended(format))
-        return std::make_unique<MendedFiles>();
-    return std::make_unique<Assimp::DefaultIOSystem>();
+        return std::make_unique<MendedFiles>(path);
+    return std::make_unique<SourceFiles>(path);
 }
 
 }  // namespace eyrie::import

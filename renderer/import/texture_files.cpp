@@ -25,6 +25,7 @@
 #include <stb/stb_image.h>
 
 #include "fabric/status.h"
+#include "renderer/import/companion_folder.h"
 #include "renderer/import/jpeg_end.h"
 #include "renderer/import/mesh_reader.h"
 #include "renderer/import/reading_process.h"
@@ -408,14 +409,17 @@ std::string findAsNamed(const std::string& name, const std::string& path) {
     const fs::path last = fs::path(plain).filename();
     if (last.empty())
         return {};
+    const auto isFound = [](const fs::path& file) {
+        return isFile(file) && mayBeCompanion(file.string());
+    };
     for (const fs::path& candidate : {folder / plain, folder / last})
-        if (isFile(candidate))
+        if (isFound(candidate))
             return candidate.string();
     std::error_code ignored;
     for (const fs::directory_entry& entry :
          fs::directory_iterator(folder.empty() ? fs::path(".") : folder, ignored))
         if (lowered(entry.path().filename().string()) == lowered(last.string()) &&
-            isFile(entry.path()))
+            isFound(entry.path()))
             return entry.path().string();
     return {};
 }

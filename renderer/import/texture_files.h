@@ -33,7 +33,8 @@ inline constexpr double kMostImageSides = 16384;
 absl::Status loadTextures(TriangleMesh& mesh, const std::string& path, const ImportControl& control,
                           std::uint64_t memoryBytes = 0);
 
-/// The file that `name` in a source at `path` means; empty where there is none.
+/// The file that `name` in a source at `path` means; empty where there is none that may be read
+/// (companion_folder.h).
 std::string findTexture(const std::string& name, const std::string& path);
 
 /// The same of `name` in a file at `companion` that the source is read with, as OBJ's materials

@@ -374,6 +374,15 @@ TEST_F(RestData, RefusesWhatIsNotOfTheKind) {
     EXPECT_EQ(ask("POST", "/imports", R"({"output":"a.eyt"})").status, 400);
 }
 
+TEST_F(RestData, ImportsOfMeshesReadNothingThatTheyNameBeyondTheDataFolder) {
+    std::ofstream(data() / "house.obj") << "mtllib ../secret.mtl\n";
+    const RestAnswer answer =
+        ask("POST", "/imports", R"({"sources":["house.obj"],"output":"house.eym"})");
+    ASSERT_EQ(answer.status, 200) << *answer.body;
+    EXPECT_EQ(endOf(member(answer, "id")), "OPERATION_STATE_DONE");
+    EXPECT_THAT(commands_.back(), Contains("--within=."));
+}
+
 TEST_F(RestData, ImportsMeshesWithTheNormalsThatAreAskedFor) {
     std::ofstream(data() / "house.obj") << "v 0 0 0\n";
     const auto importWith = [&](const std::string& normals) {

@@ -18,6 +18,7 @@ eyrie_test(assimp_reader_test LABEL unit
                    assimp_lights_test.cpp assimp_obj_test.cpp assimp_reader_test.cpp
                    assimp_stl_test.cpp assimp_textures_test.cpp assimp_x3d_test.cpp
            LINK eyrie::mesh_import assimp::assimp)
+eyrie_test(companion_folder_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(dxf_text_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(gltf_extensions_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(jdn_reader_test LABEL unit LINK eyrie::mesh_import)
