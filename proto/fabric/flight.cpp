@@ -69,9 +69,9 @@ Camera Flight::at(double seconds) const {
                             (time - from->seconds) / (next->seconds - from->seconds)};
     const Four<State> states{stateOf(before->camera), stateOf(from->camera), stateOf(next->camera),
                              stateOf(after->camera)};
-    const auto curve = [&](auto State::*part) {
+    const auto curve = [&]<typename Part>(Part State::*part) {
         return hermite(
-            Four{states.before.*part, states.from.*part, states.to.*part, states.after.*part},
+            Four<Part>{states.before.*part, states.from.*part, states.to.*part, states.after.*part},
             interval);
     };
     return {curve(&State::eye), curve(&State::target), curve(&State::up),
