@@ -121,6 +121,11 @@ std::shared_ptr<ActiveConfiguration> ConfigurationKeeper::with(
     return active_;
 }
 
+void ConfigurationKeeper::meet(const std::vector<config::RendererFacts>& renderers) {
+    if (!given_)
+        with(renderers);
+}
+
 /// Nodes are those of the renderers that do their pipes.
 void ConfigurationKeeper::make(const std::vector<config::RendererFacts>& renderers) {
     std::vector<config::RendererFacts> inOrder;
@@ -158,13 +163,11 @@ void ConfigurationKeeper::noteMissing(std::size_t ready) {
 }
 
 void ConfigurationKeeper::tell() {
+    wanted_ = given_ ? active_->pipes().size() : 0;
     std::vector<CanvasStatus> canvases = canvasesOf(*active_);
-    {
-        const std::lock_guard lock(mutex_);
-        wanted_ = given_ ? active_->pipes().size() : 0;
-        if (canvases == std::exchange(canvases_, canvases))
-            return;
-    }
+    if (canvases == canvases_)
+        return;
+    canvases_ = std::move(canvases);
     changed_();
 }
 
@@ -225,16 +228,6 @@ std::map<std::string, KeptLayout> ConfigurationKeeper::switchedLayouts() const {
 
 std::int64_t ConfigurationKeeper::latency() const {
     return active_ ? active_->written().latency : config::Configuration{}.latency;
-}
-
-std::size_t ConfigurationKeeper::renderersWanted() const {
-    const std::lock_guard lock(mutex_);
-    return wanted_;
-}
-
-std::vector<CanvasStatus> ConfigurationKeeper::canvases() const {
-    const std::lock_guard lock(mutex_);
-    return canvases_;
 }
 
 }  // namespace eyrie::coordinator

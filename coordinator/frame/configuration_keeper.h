@@ -5,7 +5,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,11 +19,11 @@ namespace eyrie::coordinator {
 /// The configuration that frames are made by: the one that was given or, without, one made of the
 /// renderers there are, another whenever their number changes. What was set, and which renderer
 /// does what, outlives that; one that takes another's place takes over all of it, with what was
-/// learned from frames. Callers take turns, but for canvases().
+/// learned from frames. Callers take turns.
 class ConfigurationKeeper {
 public:
     /// `layout` is shown at first on the first canvas of a made configuration, where it has it.
-    /// `changed` is called, without locks held, after each change of canvases(). What was kept
+    /// `changed` is called after each change of canvases(), by whoever made it. What was kept
     /// before is set again where it can be; the log says what cannot.
     ConfigurationKeeper(std::optional<config::Configuration> given, std::string layout,
                         std::function<void()> changed, ConfigurationKeeping keeping = {});
@@ -32,6 +31,9 @@ public:
     /// At work with `renderers`, of which there is at least one. Frames keep the one that they were
     /// made by.
     std::shared_ptr<ActiveConfiguration> with(const std::vector<config::RendererFacts>& renderers);
+
+    /// The same for who makes no frame: a given one has its pipes placed by frames only.
+    void meet(const std::vector<config::RendererFacts>& renderers);
 
     /// How many it was at work with last.
     std::size_t renderers() const { return renderers_.size(); }
@@ -45,12 +47,11 @@ public:
     /// As ConfigurationAccess::withConfiguration.
     absl::Status change(const std::function<absl::Status(ActiveConfiguration&)>& use);
 
-    /// Any thread.
-    std::vector<CanvasStatus> canvases() const;
+    const std::vector<CanvasStatus>& canvases() const { return canvases_; }
 
     /// How many renderers what is shown of a given configuration has pipes for; 0 of a made one,
-    /// which has what there are. Any thread.
-    std::size_t renderersWanted() const;
+    /// which has what there are.
+    std::size_t renderersWanted() const { return wanted_; }
 
 private:
     void make(const std::vector<config::RendererFacts>& renderers);
@@ -73,7 +74,6 @@ private:
     KeptSettings settings_;
     std::shared_ptr<ActiveConfiguration> active_;
     std::shared_ptr<ActiveConfiguration> before_;  ///< the made one before; it may come back
-    mutable std::mutex mutex_;                     ///< guards what follows
     std::vector<CanvasStatus> canvases_;
     std::size_t wanted_ = 0;
 };

@@ -208,12 +208,14 @@ std::string FramePipeline::problem(const Crew::State& state) const {
 }
 
 absl::Status FramePipeline::configure(const SwitchLayout& change) {
-    return planner_.configure(change, crew_.ready(crew_.state().revision));
+    const Crew::State state = crew_.state();
+    return planner_.configure(change, state, crew_.ready(state.revision));
 }
 
 absl::Status FramePipeline::withConfiguration(
     const std::function<absl::Status(ActiveConfiguration&)>& use) {
-    return planner_.withConfiguration(use, crew_.ready(crew_.state().revision));
+    const Crew::State state = crew_.state();
+    return planner_.withConfiguration(use, state, crew_.ready(state.revision));
 }
 
 Status FramePipeline::status() const {
@@ -223,7 +225,7 @@ Status FramePipeline::status() const {
     status.scene = *state.scene;
     status.sceneInfo = state.sceneInfo;
     status.sceneRevision = state.revision;
-    status.canvases = planner_.canvases();
+    status.canvases = planner_.canvases(state, crew_.ready(state.revision));
     status.problem = problem(state);
     if (status.problem.empty())
         status.note = noteOf(static_cast<std::size_t>(state.ready), planner_.renderersWanted());

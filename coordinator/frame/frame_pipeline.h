@@ -83,7 +83,7 @@ private:
 
     const FramePipelineOptions options_;
     Listeners listeners_;
-    FramePlanner planner_;
+    mutable FramePlanner planner_;  ///< status() has it meet the renderers there are
     FrameGate gate_{[this] { return hasIdleRenderer(); }};
     ProgramDrawing programs_;
     Crew crew_;  ///< last: its threads end before the rest goes

@@ -63,15 +63,35 @@ std::optional<PlannedFrame::ByPrograms> byPrograms(const PlannedFrame& frame) {
 
 }  // namespace
 
+/// With what may change the configuration: holds the lock, and tells of a change without it.
+class FramePlanner::Turn {
+public:
+    explicit Turn(FramePlanner& planner) : planner_(planner), lock_(planner.mutex_) {}
+    ~Turn() {
+        const bool tells = std::exchange(planner_.isToTell_, false);
+        lock_.unlock();
+        if (tells)
+            planner_.changed_();
+    }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+private:
+    FramePlanner& planner_;
+    std::unique_lock<std::mutex> lock_;
+};
+
 FramePlanner::FramePlanner(std::optional<config::Configuration> given, std::string layout,
                            std::function<void()> changed, ConfigurationKeeping keeping)
-    : configuration_(std::move(given), std::move(layout), std::move(changed), std::move(keeping)) {}
+    : changed_(std::move(changed)),
+      configuration_(
+          std::move(given), std::move(layout), [this] { isToTell_ = true; }, std::move(keeping)) {}
 
 absl::StatusOr<PlannedFrame> FramePlanner::plan(const FrameRequest& asked, const Crew::State& scene,
                                                 Members ready) {
     if (ready.empty())
         return absl::UnavailableError("no renderer is ready");
-    const std::lock_guard lock(mutex_);
+    const Turn turn(*this);
     if (scene.revision != std::exchange(lastRevision_, scene.revision))
         keepers_.forget();
     PlannedFrame frame;
@@ -135,24 +155,37 @@ void FramePlanner::finished(const FrameRequest& asked, const PlannedFrame& frame
         keeper.record(asked, statistics, taken.count());
 }
 
-/// What is set before the first frame is set of what that will be made by. Renderers that are not
-/// ready while they open another scene are still counted on; frames find out who has gone.
-void FramePlanner::meet(const Members& ready) {
-    if (!ready.empty() && ready.size() >= configuration_.renderers())
-        configuration_.with(factsOf(ready));
+/// What is seen and set before the next frame is of what that will be made by. Renderers that are
+/// not ready while they open another scene are still counted on; frames find out who has gone.
+void FramePlanner::meet(const Crew::State& scene, const Members& ready) {
+    if (!ready.empty() && (scene.opening == 0 || ready.size() >= configuration_.renderers()))
+        configuration_.meet(factsOf(ready));
 }
 
-absl::Status FramePlanner::configure(const SwitchLayout& change, const Members& ready) {
-    const std::lock_guard lock(mutex_);
-    meet(ready);
+absl::Status FramePlanner::configure(const SwitchLayout& change, const Crew::State& scene,
+                                     const Members& ready) {
+    const Turn turn(*this);
+    meet(scene, ready);
     return configuration_.configure(change);
 }
 
 absl::Status FramePlanner::withConfiguration(
-    const std::function<absl::Status(ActiveConfiguration&)>& use, const Members& ready) {
-    const std::lock_guard lock(mutex_);
-    meet(ready);
+    const std::function<absl::Status(ActiveConfiguration&)>& use, const Crew::State& scene,
+    const Members& ready) {
+    const Turn turn(*this);
+    meet(scene, ready);
     return configuration_.change(use);
+}
+
+std::vector<CanvasStatus> FramePlanner::canvases(const Crew::State& scene, const Members& ready) {
+    const Turn turn(*this);
+    meet(scene, ready);
+    return configuration_.canvases();
+}
+
+std::size_t FramePlanner::renderersWanted() const {
+    const std::lock_guard lock(mutex_);
+    return configuration_.renderersWanted();
 }
 
 int FramePlanner::framesUnderWay() const {

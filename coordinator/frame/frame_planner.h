@@ -24,7 +24,8 @@ class FramePlanner {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// As for ConfigurationKeeper.
+    /// As for ConfigurationKeeper, but `changed` is called without locks held: whoever hears of a
+    /// change may ask for canvases().
     FramePlanner(std::optional<config::Configuration> given, std::string layout,
                  std::function<void()> changed, ConfigurationKeeping keeping);
 
@@ -46,15 +47,18 @@ public:
     void finished(const FrameRequest& asked, const PlannedFrame& frame,
                   const fabric::FrameStatistics& statistics, Clock::time_point begun);
 
-    /// From the next frame on; `ready` as for plan(). Errors: those of
+    /// From the next frame on; `scene` and `ready` as for plan(), here and below. Errors: those of
     /// ConfigurationKeeper::configure.
-    absl::Status configure(const SwitchLayout& change,
+    absl::Status configure(const SwitchLayout& change, const Crew::State& scene,
                            const std::vector<std::shared_ptr<Member>>& ready);
     /// As ConfigurationAccess::withConfiguration.
     absl::Status withConfiguration(const std::function<absl::Status(ActiveConfiguration&)>& use,
+                                   const Crew::State& scene,
                                    const std::vector<std::shared_ptr<Member>>& ready);
-    std::vector<CanvasStatus> canvases() const { return configuration_.canvases(); }
-    std::size_t renderersWanted() const { return configuration_.renderersWanted(); }
+    /// As the next frame would find them.
+    std::vector<CanvasStatus> canvases(const Crew::State& scene,
+                                       const std::vector<std::shared_ptr<Member>>& ready);
+    std::size_t renderersWanted() const;
 
     /// As the configuration has it: config::framesUnderWay.
     int framesUnderWay() const;
@@ -62,11 +66,15 @@ public:
     std::set<std::string> renderersUsed() const;
 
 private:
-    void meet(const std::vector<std::shared_ptr<Member>>& ready);
+    class Turn;
+
+    void meet(const Crew::State& scene, const std::vector<std::shared_ptr<Member>>& ready);
     const fabric::FrameData& frameDataFor(const FrameRequest& request,
                                           const std::optional<fabric::FrameBudget>& budget);
 
+    const std::function<void()> changed_;
     mutable std::mutex mutex_;  ///< guards what follows
+    bool isToTell_ = false;     ///< of a change
     std::uint64_t frameNumber_ = 0;
     fabric::FrameData frameData_;
     BudgetKeepers keepers_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes and data: who has opened which, and who may take part.
+#include <algorithm>
 #include <atomic>
 
 #include <gmock/gmock.h>
@@ -74,6 +75,34 @@ TEST_P(FrameScenes, ListenersHearThatThePictureIsThere) {
     });
     openWith(1);
     EXPECT_TRUE(eventually([&] { return ready.load(); }));
+    pipeline_.unsubscribe(handle);
+}
+
+/// Without a frame, and told to those who ask when they hear of a change.
+TEST_P(FrameScenes, TheStatusHasTheLayoutsOfTheRenderersThereAre) {
+    std::atomic<bool> heardOfTwo{false};
+    const auto has = [&](const std::string& layout) {
+        const auto canvases = pipeline_.status().canvases;
+        return !canvases.empty() && std::ranges::count(canvases.front().layouts, layout) == 1;
+    };
+    const int handle = pipeline_.subscribe([&] {
+        if (has(GetParam()))
+            heardOfTwo = true;
+    });
+    EXPECT_TRUE(pipeline_.status().canvases.empty());
+    pipeline_.setScene(sceneNamed("first"));
+    addRenderer();
+    EXPECT_TRUE(eventually([&] { return has("Simple"); }));
+    EXPECT_FALSE(has(GetParam()));
+    addRenderer();
+    EXPECT_TRUE(eventually([&] { return heardOfTwo.load(); }));
+    EXPECT_TRUE(has(GetParam()));
+    pipeline_.setScene(sceneNamed("second"));
+    EXPECT_TRUE(has(GetParam())) << "who opens another scene is not gone";
+    EXPECT_TRUE(eventually([&] { return pipeline_.status().problem.empty(); }));
+    registry_.markDead(ids_[0], "test", Registry::Clock::now());
+    EXPECT_TRUE(eventually([&] { return !has(GetParam()); }));
+    EXPECT_TRUE(has("Simple"));
     pipeline_.unsubscribe(handle);
 }
 
