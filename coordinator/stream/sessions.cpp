@@ -2,6 +2,7 @@
 #include "coordinator/stream/sessions.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,9 +27,14 @@ absl::StatusOr<Joining> joiningOf(std::string_view target) {
     Joining joining;
     const std::size_t mark = target.find('?');
     std::string_view query = mark == target.npos ? "" : target.substr(mark + 1);
+    std::set<std::string_view> given;
     while (!query.empty()) {
         const std::string_view field = query.substr(0, query.find('&'));
         query.remove_prefix(std::min(query.size(), field.size() + 1));
+        const std::string_view name = field.substr(0, field.find('='));
+        if ((name == "session" || name == "role") && !given.insert(name).second)
+            return absl::InvalidArgumentError(
+                fmt::format("{} is in the query twice; give it once", name));
         if (field.starts_with("session=")) {
             joining.session = field.substr(8);
             if (!isName(joining.session))

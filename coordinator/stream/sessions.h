@@ -22,7 +22,8 @@ struct Joining {
 };
 
 /// What /ws?session=NAME&role=watch|lead asks for; `target` may have more fields. Errors:
-/// InvalidArgument (no name of 1 to 64 letters, digits, ".", "-" and "_", or another role).
+/// InvalidArgument (no name of 1 to 64 letters, digits, ".", "-" and "_", another role, or one of
+/// them twice).
 absl::StatusOr<Joining> joiningOf(std::string_view target);
 
 /// The sessions of one frame source: those with names are there while they have viewers. All

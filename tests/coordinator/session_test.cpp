@@ -318,7 +318,9 @@ TEST(Joining, IsReadFromTheAddress) {
     for (const std::string& target :
          {std::string("/ws?session="), std::string("/ws?session=a%20b"),
           std::string("/ws?session=\xc3\xa9"), "/ws?session=" + std::string(65, 'a'),
-          std::string("/ws?session=a&role=king"), std::string("/ws?session=a/b")})
+          std::string("/ws?session=a&role=king"), std::string("/ws?session=a/b"),
+          std::string("/ws?session=a&session=b"), std::string("/ws?session=a&x=1&session=a"),
+          std::string("/ws?role=lead&role=watch")})
         EXPECT_TRUE(absl::IsInvalidArgument(joiningOf(target).status())) << target;
 }
 
