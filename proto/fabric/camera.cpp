@@ -2,6 +2,7 @@
 #include "fabric/camera.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,10 @@ namespace {
 bool isWithin(const Vec3& v, double limit) {
     return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
 }
+
+/// Whether it can be normalised: shorter ones have squares that are zero, or of a few bits. Where
+/// coordinates are large, points are the same before they are so near.
+bool hasDirection(const Vec3& v) { return glm::dot(v, v) >= std::numeric_limits<double>::min(); }
 
 absl::Status invalid(std::string_view field, std::string_view found, std::string_view expected) {
     return absl::InvalidArgumentError(
@@ -36,10 +41,12 @@ absl::Status validate(const Camera& camera) {
         return invalid("fovyDegrees", fmt::format("{}", camera.fovYDegrees),
                        fmt::format("from {} to {}", kMinFovYDegrees, kMaxFovYDegrees));
     const Vec3 forward = camera.target - camera.eye;
-    if (glm::length(forward) == 0)
-        return invalid("target", "equal to camera.eye", "another point");
-    if (glm::length(camera.up) == 0)
-        return invalid("up", "zero", "a direction, such as [0,0,1]");
+    if (!hasDirection(forward))
+        return invalid("target", "equal to camera.eye, or too near to it to give a direction",
+                       "another point, farther away");
+    if (!hasDirection(camera.up))
+        return invalid("up", "zero, or too short to give a direction",
+                       "a direction, such as [0,0,1]");
     const double sine = glm::length(glm::cross(glm::normalize(forward), glm::normalize(camera.up)));
     if (!(sine > 1e-9))
         return invalid("up", "parallel to the view direction", "another direction");

@@ -24,8 +24,8 @@ struct Camera {
 };
 
 /// InvalidArgument, naming the field, when the camera spans no picture: not finite or beyond
-/// kMaxCoordinateMetres, eye equal to target, up parallel to the view direction, or a field of view
-/// outside 1 to 170 degrees.
+/// kMaxCoordinateMetres, target too near to eye or up too short to give a direction, up
+/// parallel to the view direction, or a field of view outside 1 to 170 degrees.
 absl::Status validate(const Camera& camera);
 
 /// Rotation from world to view axes (view: right-handed, x right, y up, looks down -z).

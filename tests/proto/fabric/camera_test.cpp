@@ -36,6 +36,21 @@ TEST(Camera, ARefusalNamesTheField) {
                     testing::HasSubstr("camera.fovyDegrees"));
 }
 
+TEST(Camera, ATargetOrUpTooShortForADirectionIsNotCalledZero) {
+    for (const double tiny : {1e-320, 1e-200, 1e-160}) {
+        EXPECT_THAT(refusal({{0, 0, 0}, {0, tiny, 0}, {0, 0, 1}, 45}),
+                    testing::HasSubstr("camera.target is equal to camera.eye, or too near"));
+        EXPECT_THAT(refusal({{0, 0, 0}, {0, 1, 0}, {0, 0, tiny}, 45}),
+                    testing::HasSubstr("camera.up is zero, or too short"));
+    }
+    for (const double enough : {1e-150, 1e-9})
+        EXPECT_EQ(refusal({{0, 0, 0}, {0, enough, 0}, {0, 0, enough}, 45}), "");
+    const double far = kMaxCoordinateMetres;
+    EXPECT_EQ(refusal({{far, 0, 0}, {std::nextafter(far, 0), 0, 0}, {0, 0, 1}, 45}), "");
+    EXPECT_THAT(refusal({{far, 0, 0}, {far - 1e-3, 0, 0}, {0, 0, 1}, 45}),
+                testing::HasSubstr("or too near"));
+}
+
 TEST(ViewFromWorld, LooksDownMinusZWithYUp) {
     const Mat3 rotation = viewFromWorldRotation({{0, 0, 0}, {0, 5, 0}, {0, 0, 1}, 45});
     EXPECT_EQ(rotation * Vec3(1, 0, 0), Vec3(1, 0, 0));
