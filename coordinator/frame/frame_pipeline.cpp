@@ -9,6 +9,7 @@
 
 #include "coordinator/config/frames_under_way.h"
 #include "coordinator/frame/dispatch.h"
+#include "coordinator/frame/for_anybody.h"
 #include "coordinator/frame/problem.h"
 #include "fabric/status.h"
 
@@ -188,6 +189,7 @@ absl::StatusOr<fabric::Picked> FramePipeline::pick(const fabric::PickRequest& re
         return absl::UnavailableError(why);
     absl::Status last = absl::UnavailableError("no renderer has the scene open; try again");
     for (const std::shared_ptr<Member>& member : crew_.ready(state.revision)) {
+        const std::string address = crew_.addressOf(member->id());  // it may be gone afterwards
         absl::StatusOr<fabric::Picked> picked =
             member->pick(request, state.revision, options_.pickTimeout);
         if (picked.ok() && picked->has_value() &&
@@ -197,7 +199,7 @@ absl::StatusOr<fabric::Picked> FramePipeline::pick(const fabric::PickRequest& re
                                                      state.scene->objects.size()));
         if (picked.ok())
             return picked;
-        last = picked.status();
+        last = forAnybody(picked.status(), *state.scene, member->id(), address);
     }
     return last;
 }

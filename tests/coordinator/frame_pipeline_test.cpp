@@ -240,8 +240,9 @@ TEST_P(FramePipelineTest, PicksAreAskedOfTheNextRendererWhereOneFails) {
         EXPECT_TRUE(isAlive(i));
     }
     for (const auto& renderer : renderers)
-        renderer->failToPick(absl::DataLossError("page 7 is damaged"));
-    EXPECT_TRUE(absl::IsDataLoss(pipeline_.pick(request).status()));
+        renderer->failToPick(absl::DataLossError("renderer at fake:3: page 7 is damaged"));
+    EXPECT_EQ(pipeline_.pick(request).status(),
+              absl::DataLossError(ids_.back() + ": page 7 is damaged"));
     expectWholePicture();
 }
 
