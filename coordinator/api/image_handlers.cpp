@@ -233,7 +233,9 @@ absl::StatusOr<v1::RenderImageResponse> Painter::render(const v1::RenderImageReq
     return response;
 }
 
-/// A part that lies beside all that the whole picture shows is background, as it is there.
+/// A part that lies beside all that the whole picture shows is background, as it is there. So it is
+/// where nobody could say by which sights that is seen: a canvas may be put together of others'
+/// frames while its own wall shows the eye its back.
 absl::Status Painter::checkSeen(const coordinator::RenderedFrame& frame,
                                 const coordinator::FrameRequest& asked) const {
     const std::string why = coordinator::whyEmpty(frame);
@@ -242,8 +244,8 @@ absl::Status Painter::checkSeen(const coordinator::RenderedFrame& frame,
     if (!asked.part.isEmpty()) {
         coordinator::FrameRequest whole = asked;
         whole.part = {};
-        ASSIGN_OR_RETURN(const fabric::SeenAreas seen, frames_.seen(whole));
-        if (!seen || !seen->empty())
+        const absl::StatusOr<fabric::SeenAreas> seen = frames_.seen(whole);
+        if (!seen.ok() || !seen->has_value() || !(*seen)->empty())
             return absl::OkStatus();
     }
     return absl::FailedPreconditionError(why);

@@ -154,12 +154,15 @@ TEST_F(Rest, APartBesideAllThatIsSeenIsBackgroundUnlessTheWholePictureIs) {
         frame.pictures.front().seen = std::vector<fabric::SeenArea>();
         return frame;
     });
-    std::vector<fabric::SeenArea> areas(1);
-    frames_.setSeen([&](const coordinator::FrameRequest& request) {
-        EXPECT_TRUE(request.part.isEmpty());
-        EXPECT_EQ(request.width, 200);
-        return fabric::SeenAreas(areas);
-    });
+    absl::StatusOr<std::vector<fabric::SeenArea>> areas = std::vector<fabric::SeenArea>(1);
+    frames_.setSeen(
+        [&](const coordinator::FrameRequest& request) -> absl::StatusOr<fabric::SeenAreas> {
+            EXPECT_TRUE(request.part.isEmpty());
+            EXPECT_EQ(request.width, 200);
+            if (!areas.ok())
+                return areas.status();
+            return fabric::SeenAreas(*areas);
+        });
     const std::string part =
         R"({"width":200,"height":100,"format":"IMAGE_FORMAT_RAW","part":{"x":100,"width":1,"height":1}})";
     const RestAnswer beside = send("POST", "/image", part);
@@ -167,8 +170,10 @@ TEST_F(Rest, APartBesideAllThatIsSeenIsBackgroundUnlessTheWholePictureIs) {
     EXPECT_EQ(*beside.body, std::string("\1\2\3\xFF", 4));
     expectProblem(send("POST", "/image", R"({"width":200,"height":100})"), 409,
                   "FAILED_PRECONDITION");
-    areas.clear();
+    areas->clear();
     expectProblem(send("POST", "/image", part), 409, "FAILED_PRECONDITION");
+    areas = absl::InvalidArgumentError("the eye is not before the wall");  // of frames put together
+    EXPECT_EQ(send("POST", "/image", part).status, 200);
 }
 
 TEST_F(Rest, EyesAndStereoThatAreNotKnownAreRefused) {
