@@ -161,12 +161,15 @@ void RendererProcesses::supervise(const std::stop_token& stop) {
         allFailed_ = std::ranges::all_of(slots, &Slot::hasFailed);
         std::this_thread::sleep_for(kPollInterval);
     }
-    for (Slot& slot : slots)  // all at once, then each is waited for
+    for (Slot& slot : slots)  // all at once, and all within the same time
         if (slot.process())
             slot.process()->terminate();
+    const Slot::Clock::time_point deadline = Slot::Clock::now() + kStopGrace;
     for (Slot& slot : slots)
         if (slot.process())
-            slot.process()->stop(kStopGrace);
+            slot.process()->stop(std::max(
+                std::chrono::milliseconds(0),
+                std::chrono::ceil<std::chrono::milliseconds>(deadline - Slot::Clock::now())));
 }
 
 }  // namespace eyrie::cli

@@ -36,6 +36,8 @@ constexpr char kPulsePayload[] = "pulse";
 constexpr std::uint16_t kSessionClosed = 4001;
 /// How soon the end of what a viewer had asked for is noticed.
 constexpr std::chrono::milliseconds kDrainPoll{5};
+/// For the answer to the goodbye of a server that shuts down; who takes longer is cut off.
+constexpr std::chrono::milliseconds kGoodbyeTimeout{750};
 
 class WebSocket : public Session, public std::enable_shared_from_this<WebSocket> {
 public:
@@ -103,13 +105,25 @@ private:
         if (viewer_ == nullptr)
             return;
         const bool isLate = std::chrono::steady_clock::now() >= deadline;
-        if (isLate || (!isWriting_ && viewer_->hasDrained()))
-            return close({websocket::close_code::going_away, "the server is shutting down"});
+        if (isLate || (!isWriting_ && viewer_->hasDrained())) {
+            close({websocket::close_code::going_away, "the server is shutting down"});
+            return awaitAnswer();
+        }
         drain_.expires_after(kDrainPoll);
         drain_.async_wait([weak = weak_from_this(), deadline](error_code error) {
             const auto self = weak.lock();
             if (!error && self != nullptr)
                 self->sayGoodbye(deadline);
+        });
+    }
+
+    /// To a goodbye: a viewer that is gone, or stopped, gives none.
+    void awaitAnswer() {
+        drain_.expires_after(kGoodbyeTimeout);
+        drain_.async_wait([weak = weak_from_this()](error_code error) {
+            const auto self = weak.lock();
+            if (!error && self != nullptr)
+                self->end();
         });
     }
 

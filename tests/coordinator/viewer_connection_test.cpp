@@ -2,6 +2,7 @@
 // Viewers on WebSockets: their frames, their pace, and how they end.
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <memory>
 #include <string>
 #include <thread>
@@ -249,6 +250,22 @@ TEST_F(ViewerConnection, TellsViewersThatItShutsDown) {
     tcp::socket late(io_);
     late.connect({asio::ip::make_address("127.0.0.1"), port()}, error);
     EXPECT_EQ(error, asio::error::connection_refused);
+}
+
+/// What viewers have asked for may take long; the answer to a goodbye may not.
+TEST_F(ViewerConnection, AViewerThatDoesNotAnswerTheGoodbyeIsNotWaitedFor) {
+    ServerOptions options;
+    options.drainTimeout = std::chrono::minutes(10);
+    start(options);
+    const auto silent = openSocket();
+    read(*silent);
+    const std::future<void> stopped = std::async(std::launch::async, [this] { server_->stop(); });
+    EXPECT_EQ(stopped.wait_for(std::chrono::minutes(1)), std::future_status::ready);
+    for (beast::error_code error; !error;) {  // of an answer that comes too late
+        beast::flat_buffer buffer;
+        silent->read(buffer, error);
+    }
+    EXPECT_EQ(silent->reason().code, websocket::close_code::going_away) << "it was told";
 }
 
 TEST_F(ViewerConnection, SendsWhatWasAskedForBeforeItStopsAndTakesNoNewViews) {
