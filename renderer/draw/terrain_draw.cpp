@@ -105,7 +105,7 @@ public:
 private:
     const terrain::EytIndex& index() const { return file_->index(); }
     void use(const TerrainEffect& program, const FrameState& frame);
-    void leaveOutBacks(const FrameState& frame) const;
+    void setSides(const FrameState& frame, const lod::ObjectView& view) const;
     void addPageBounds(const terrain::TerrainCut& wanted, std::vector<Piece>& pieces) const;
     /// What a view wants at one tau.
     struct Wanted {
@@ -298,15 +298,13 @@ void TerrainDrawable::use(const TerrainEffect& program, const FrameState& frame)
     program.bandsPerHeight(static_cast<float>(kElevationBands / heights));
 }
 
-/// Where fronts hide them all; lines have no sides.
-void TerrainDrawable::leaveOutBacks(const FrameState& frame) const {
-    const lod::ObjectView view(frame.view,
-                               fabric::exaggerated(worldFromObject_, frame.look.exaggeration));
-    if (frame.shading == fabric::Shading::Wireframe ||
-        !terrain::hidesItsBacks(index(), drawn_, view))
-        return;
+/// Fronts are what faces up in the terrain's own space. Backs are left out where fronts hide them
+/// all; lines have no sides.
+void TerrainDrawable::setSides(const FrameState& frame, const lod::ObjectView& view) const {
     glFrontFace(glm::determinant(fabric::Mat3(view.viewFromObject())) < 0 ? GL_CW : GL_CCW);
-    glEnable(GL_CULL_FACE);
+    if (frame.shading != fabric::Shading::Wireframe &&
+        terrain::hidesItsBacks(index(), drawn_, view))
+        glEnable(GL_CULL_FACE);
 }
 
 void TerrainDrawable::useNormals(const TerrainEffect& program, const terrain::TileId& tile) {
@@ -387,9 +385,9 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
     if (frame.look.tileBounds || frame.look.pageBounds)
         RETURN_IF_ERROR(boxLines_.begin(
             frame.view, fabric::exaggerated(worldFromObject_, frame.look.exaggeration)));
-    leaveOutBacks(frame);
     const lod::ObjectView view(frame.view,
                                fabric::exaggerated(worldFromObject_, frame.look.exaggeration));
+    setSides(frame, view);
     const SeenBoxes seen(view, frame);
     for (const Piece& piece : pieces) {
         if (!piece.isNode) {

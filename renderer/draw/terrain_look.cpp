@@ -44,12 +44,7 @@ effects::TerrainEffect::Variant TerrainLook::variantFor(const FrameState& frame,
 void TerrainLook::use(const effects::TerrainEffect& program, const fabric::Mat4& worldFromObject,
                       const FrameState& frame) {
     const fabric::Look& look = frame.look;
-    // Of a mirror image that is upside down, the side that was below faces up. What is turned over
-    // without being mirrored is seen from below.
-    const fabric::Mat3 worldFromNormal = glm::inverseTranspose(
-        fabric::Mat3(fabric::exaggerated(worldFromObject, look.exaggeration)));
-    if (glm::determinant(worldFromNormal) < 0 && worldFromNormal[2].z < 0)
-        program.worldFromNormal(-glm::mat3(worldFromNormal));
+    setSides(program, fabric::exaggerated(worldFromObject, look.exaggeration), frame);
     program.slopeShading(static_cast<float>(look.slopeShading));
     program.saturation(static_cast<float>(look.saturation));
     program.tintShare(look.levelTint || look.rangeTint ? kTintShare : frame.colour ? 1.0F : 0.0F);
@@ -57,6 +52,19 @@ void TerrainLook::use(const effects::TerrainEffect& program, const fabric::Mat4&
         setContours(program, *look.contours);
     if (look.transfer)
         setTransfer(program, *look.transfer);
+}
+
+/// The side that is seen is lit, but for two: lines have none, and where the eye is above all of
+/// the ground a back is seen through its outer sides alone. Lines are lit on the side that faces
+/// up, which of a mirror image that is upside down is the one that was below.
+void TerrainLook::setSides(const effects::TerrainEffect& program,
+                           const fabric::Mat4& worldFromGround, const FrameState& frame) const {
+    const bool areLines = frame.shading == fabric::Shading::Wireframe;
+    const fabric::Vec3 eye(glm::inverse(worldFromGround) * fabric::Vec4(frame.view.eye, 1));
+    program.backSide(areLines || eye.z > index_.bounds().max.z ? 1.0F : -1.0F);
+    const fabric::Mat3 worldFromNormal = glm::inverseTranspose(fabric::Mat3(worldFromGround));
+    if (areLines && glm::determinant(worldFromNormal) < 0 && worldFromNormal[2].z < 0)
+        program.worldFromNormal(-glm::mat3(worldFromNormal));
 }
 
 /// Grounds are drawn lighter than they are, and so are the colours of levels and ranges.

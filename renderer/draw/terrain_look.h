@@ -29,6 +29,8 @@ public:
     static void tint(const effects::TerrainEffect& program, const FrameState& frame, int level);
 
 private:
+    void setSides(const effects::TerrainEffect& program, const fabric::Mat4& worldFromGround,
+                  const FrameState& frame) const;
     void setContours(const effects::TerrainEffect& program,
                      const fabric::ContourLines& lines) const;
     void setTransfer(const effects::TerrainEffect& program,

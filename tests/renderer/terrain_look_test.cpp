@@ -27,10 +27,11 @@ protected:
         ASSERT_NO_FATAL_FAILURE(open(fabric::Mat4(1.0)));
     }
 
-    void open(const fabric::Mat4& worldFromTerrain) {
+    void open(const fabric::Mat4& worldFromTerrain, const fabric::Vec3& light = {0.4, 0.5, -0.8}) {
         auto scene = test::sampleScene(test::SampleKind::Terrain);
         ASSERT_TRUE(scene.ok()) << scene.status();
         scene->objects.front().worldFromObject = worldFromTerrain;
+        scene->lights = {{.direction = light}};
         auto info = renderer_->openScene(*scene);
         ASSERT_TRUE(info.ok()) << info.status();
         info_ = *info;
@@ -191,13 +192,15 @@ TEST_F(TerrainLookTest, WhatIsDrawnFlatHasTheDepthOfAPlane) {
     EXPECT_GT(seen, kWidth * kHeight / 10U);
 }
 
+/// Mean of what is covered.
+double brightness(const fabric::Image& image) {
+    double sum = 0;
+    for (std::size_t i = 0; i < image.colour.size(); ++i)
+        sum += image.depth[i] > 0 ? image.colour[i].g : 0;
+    return sum / static_cast<double>(std::max<std::size_t>(covered(image), 1));
+}
+
 TEST_F(TerrainLookTest, UpsideDownIsLitFromAboveAsWell) {
-    const auto brightness = [](const fabric::Image& image) {
-        double sum = 0;
-        for (std::size_t i = 0; i < image.colour.size(); ++i)
-            sum += image.depth[i] > 0 ? image.colour[i].g : 0;
-        return sum / static_cast<double>(std::max<std::size_t>(covered(image), 1));
-    };
     const fabric::Image upright = draw({}, camera(0.5)).image;
     fabric::Camera from = camera(0.5);
     from.eye.z -= 2 * info_.bounds.centre().z;
@@ -234,6 +237,43 @@ TEST_F(TerrainLookTest, TheSameSurfaceIsLitTheSame) {
         EXPECT_GT(covered(plain), kWidth * kHeight / 10U) << c.name;
         EXPECT_EQ(differing(plain, other), 0U) << c.name;
     }
+}
+
+/// A scene and its mirror image below height 0, light, eye and all, are equally bright: of one the
+/// upper side is seen, of the other the lower.
+TEST_F(TerrainLookTest, TheSideThatIsSeenIsLit) {
+    const auto scaled = [](double x, double y, double z) {
+        return fabric::Mat4(glm::scale(fabric::Mat4(1.0), fabric::Vec3(x, y, z)));
+    };
+    const auto mirrored = [](fabric::Vec3 place) {
+        place.z = -place.z;
+        return place;
+    };
+    const fabric::Vec3 down(0.4, 0.5, -0.8);
+    for (const fabric::Mat4& ground : {scaled(1, 1, 1), scaled(1, -1, -1), scaled(-1, 1, 1)})
+        for (const fabric::Shading shading : {fabric::Shading::Smooth, fabric::Shading::Flat})
+            for (const bool fromBelow : {false, true}) {
+                const fabric::Vec3 light = fromBelow ? mirrored(down) : down;
+                ASSERT_NO_FATAL_FAILURE(open(ground, light));
+                fabric::Camera from = camera(0.5);
+                if (fromBelow)
+                    from.eye.z = 2 * from.target.z - from.eye.z;
+                const double seen = brightness(draw({}, from, shading).image);
+                ASSERT_NO_FATAL_FAILURE(open(scaled(1, 1, -1) * ground, mirrored(light)));
+                from.eye = mirrored(from.eye);
+                from.target = mirrored(from.target);
+                const double reflected = brightness(draw({}, from, shading).image);
+                EXPECT_NEAR(reflected / seen, 1, 0.01) << fromBelow;
+                EXPECT_GT(seen, 80) << fromBelow << ": more than ambient light";
+            }
+}
+
+/// What is drawn as lines has no sides.
+TEST_F(TerrainLookTest, LinesAreLitFromAboveFromWhereverTheyAreSeen) {
+    fabric::Camera from = camera(0.5);
+    const double above = brightness(draw({}, from, fabric::Shading::Wireframe).image);
+    from.eye.z = 2 * from.target.z - from.eye.z;
+    EXPECT_NEAR(brightness(draw({}, from, fabric::Shading::Wireframe).image) / above, 1, 0.1);
 }
 
 TEST_F(TerrainLookTest, ALookOutOfItsRangesIsRefused) {
