@@ -64,7 +64,10 @@ absl::Status checkTaus(const std::vector<double>& taus, const std::vector<double
     return absl::OkStatus();
 }
 
+using Configured = std::optional<config::Configuration>;
+
 bench::BenchFacts factsOf(const Options& options, const bench::RunPlan& plan,
+                          const Configured& configuration,
                           const std::vector<bench::BenchRun>& runs) {
     const auto nameOf = [](const std::filesystem::path& path) { return path.filename().string(); };
     return {nameOf(options.scene),
@@ -77,7 +80,8 @@ bench::BenchFacts factsOf(const Options& options, const bench::RunPlan& plan,
             cli::nameOf(options.occlusion),
             wordsOf(options.pictures.config),
             plan.flight.hash(),
-            runs.front().sceneHash};
+            runs.front().sceneHash,
+            configurationHash(configuration)};
 }
 
 /// In their order, each once.
@@ -155,15 +159,12 @@ absl::Status checkReference(const Options& options) {
 
 /// As asked for or, with a configuration, as many as it uses. What only a configuration has is
 /// drawn by at least one (PictureSource::open).
-absl::StatusOr<std::vector<int>> renderersFor(const Options& options) {
-    const ConfigOptions& config = options.pictures.config;
+std::vector<int> renderersFor(const Options& options, const Configured& configuration) {
     std::vector<int> renderers = options.renderers;
-    if (!config.file.empty()) {
-        ASSIGN_OR_RETURN(const auto configuration, configurationOf(config, Told::Errors));
+    if (configuration)
         std::ranges::replace(renderers, 0, renderersOf(*configuration));
-    } else if (config.shown != coordinator::Shown{}) {
+    else if (options.pictures.config.shown != coordinator::Shown{})
         std::ranges::replace(renderers, 0, 1);
-    }
     return withoutRepeats(renderers);
 }
 
@@ -181,8 +182,11 @@ absl::Status runBench(const Options& options) {
     RETURN_IF_ERROR(fabric::withContext(bench::checkReportFolder(options.out), "-o"));
     ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
     ASSIGN_OR_RETURN(bench::NamedFlight flight, bench::NamedFlight::read(options.flight));
+    ASSIGN_OR_RETURN(const Configured configuration,
+                     configurationOf(options.pictures.config, toldOf(options.pictures.quiet)));
     bench::RunPlan plan = planOf(options, std::move(flight), size);
-    ASSIGN_OR_RETURN(plan.renderers, renderersFor(options));
+    plan.pictures.configIsTold = true;
+    plan.renderers = renderersFor(options, configuration);
     std::optional<bench::ReferencePlan> reference;
     if (options.reference.isAsked) {
         ASSIGN_OR_RETURN(reference, bench::planReference(plan, options.reference, stop.token()));
@@ -201,7 +205,7 @@ absl::Status runBench(const Options& options) {
         return uniform.status();
     if (!uniform.ok())  // how fast they were is known, after minutes maybe
         for (bench::BenchRun& run : runs) run.measured.reset();
-    const bench::BenchFacts facts = factsOf(options, plan, runs);
+    const bench::BenchFacts facts = factsOf(options, plan, configuration, runs);
     const bench::Report report{facts, std::move(runs), uniform.value_or(Levels())};
     RETURN_IF_ERROR(bench::writeReport(report, options.out));
     if (options.json)

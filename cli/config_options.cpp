@@ -9,12 +9,14 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include "cli/compound_names.h"
 #include "cli/configuration_file.h"
 #include "cli/log.h"
 #include "cli/options/one_of.h"
 #include "coordinator/compound/plan_check.h"
+#include "coordinator/config/configuration_message.h"
 #include "coordinator/config/findings.h"
 #include "coordinator/config/named.h"
 #include "coordinator/config/one_channel.h"
@@ -179,6 +181,13 @@ absl::StatusOr<std::optional<config::Configuration>> configurationOf(const Confi
     if (options.oneChannel)
         configuration = config::oneChannel(configuration);
     return std::optional(std::move(configuration));
+}
+
+std::uint64_t configurationHash(const std::optional<config::Configuration>& configuration) {
+    if (!configuration)
+        return 0;
+    const std::string text = config::writeJson(*configuration);
+    return XXH64(text.data(), text.size(), 0);
 }
 
 std::string configurationName(const ConfigOptions& options) {

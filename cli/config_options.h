@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -49,6 +50,9 @@ inline Told toldOf(bool isQuiet) { return isQuiet ? Told::Warnings : Told::All; 
 /// InvalidArgument, with all that is wrong with it.
 absl::StatusOr<std::optional<config::Configuration>> configurationOf(const ConfigOptions& options,
                                                                      Told told);
+
+/// Of all that it says, however its file is written; 0 without one.
+std::uint64_t configurationHash(const std::optional<config::Configuration>& configuration);
 
 /// What settings of the configuration are kept for: where its file lies; empty without one.
 std::string configurationName(const ConfigOptions& options);

@@ -50,6 +50,7 @@ public:
     }
 
     fabric::SceneInfo sceneInfo() const override { return info_; }
+    fabric::Rgba background() const override { return background_; }
 
 private:
     absl::StatusOr<RenderedFrame> draw(const FrameRequest& request,
@@ -90,7 +91,8 @@ private:
 
 class InProcesses final : public PictureSource {
 public:
-    explicit InProcesses(std::unique_ptr<LocalFarm> farm) : farm_(std::move(farm)) {}
+    InProcesses(std::unique_ptr<LocalFarm> farm, fabric::Rgba background)
+        : farm_(std::move(farm)), background_(background) {}
 
     absl::StatusOr<RenderedFrame> draw(const FrameRequest& request) override {
         return farm_->frames().renderFrame(request);
@@ -103,9 +105,11 @@ public:
     int framesAtOnce() const override { return farm_->frames().framesAtOnce(); }
 
     fabric::SceneInfo sceneInfo() const override { return farm_->frames().status().sceneInfo; }
+    fabric::Rgba background() const override { return background_; }
 
 private:
     const std::unique_ptr<LocalFarm> farm_;
+    const fabric::Rgba background_;
 };
 
 absl::StatusOr<std::unique_ptr<PictureSource>> openHere(const fabric::Scene& scene,
@@ -127,10 +131,11 @@ absl::StatusOr<std::unique_ptr<PictureSource>> openInProcesses(
     settings.configuration = std::move(configuration);
     settings.layout = compoundNames().at(options.config.compound);
     ASSIGN_OR_RETURN(auto farm, LocalFarm::start(std::move(settings), options.drawing));
+    const fabric::Rgba background = scene.background;
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
     farm->startRenderers(renderers);
     RETURN_IF_ERROR(farm->awaitRenderers(renderers, kRenderersLimit, stop));
-    return std::make_unique<InProcesses>(std::move(farm));
+    return std::make_unique<InProcesses>(std::move(farm), background);
 }
 
 }  // namespace
@@ -154,7 +159,8 @@ absl::StatusOr<RenderedFrame> PictureSource::drawLatest(const ChooseFrame& choos
 absl::StatusOr<std::unique_ptr<PictureSource>> PictureSource::open(
     const std::string& path, const PictureSourceOptions& options, const std::stop_token& stop) {
     quietLog();
-    ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, toldOf(options.quiet)));
+    const Told told = options.configIsTold ? Told::Errors : toldOf(options.quiet);
+    ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, told));
     ASSIGN_OR_RETURN(fabric::Scene scene,
                      loadScene(std::span(&path, 1), options.drawing.cache, options.quiet, stop));
     // An eye beside the camera, or a canvas, is what only a configuration has.

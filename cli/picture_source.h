@@ -19,7 +19,8 @@ struct PictureSourceOptions {
     int renderers = 0;
     ConfigOptions config;
     DrawingOptions drawing;
-    bool quiet = false;  ///< neither progress nor notes of imports
+    bool quiet = false;         ///< neither progress nor notes of imports
+    bool configIsTold = false;  ///< what is found in its file, but for errors, was told before
 };
 
 /// Says that a --compound has no effect where `renderers` processes draw at most: one shares a
@@ -46,6 +47,7 @@ public:
     /// As FrameSource::framesAtOnce; where it is more than 1, any thread may draw.
     virtual int framesAtOnce() const { return 1; }
     virtual fabric::SceneInfo sceneInfo() const = 0;
+    virtual fabric::Rgba background() const = 0;  ///< of pictures, where nothing is
 };
 
 }  // namespace eyrie::cli

@@ -231,6 +231,9 @@ std::string differenceOf(const WrittenReport& a, const WrittenReport& b) {
     };
     if (a.seen && b.seen && a.seen != b.seen)
         return screen(a) + "; " + screen(b);
+    if (areOther(a.configurationHash, b.configurationHash))
+        return fmt::format("{} and {} are of other configurations that are both named by {}",
+                           a.name, b.name, a.seen.value_or("--config"));
     return areOther(a.flightHash, b.flightHash)
                ? fmt::format("{} and {} are of other flights that are both named {}", a.name,
                              b.name, a.flight)

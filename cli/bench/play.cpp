@@ -38,6 +38,16 @@ fabric::FrameStatistics ofSizeAskedFor(fabric::FrameStatistics statistics, doubl
     return statistics;
 }
 
+/// Whether some pixel is not the background's. From the middle of the picture on, where that is
+/// known at once of most: it is within the time that the bench takes.
+bool showsSomething(const fabric::Image& image, const fabric::Rgba& background) {
+    const auto isOther = [&](const fabric::Rgba& pixel) { return pixel != background; };
+    const auto& pixels = image.colour;
+    const auto middle = pixels.begin() + static_cast<std::ptrdiff_t>(pixels.size() / 2);
+    return std::any_of(middle, pixels.end(), isOther) ||
+           std::any_of(pixels.begin(), middle, isOther);
+}
+
 /// A pass over the flight's frames; their pictures are timed, and nothing else.
 class Pass {
 public:
@@ -61,7 +71,8 @@ public:
                 stretch(frame.drawn->image.area, request.width, request.height);
             played_.frames.push_back({pass, seconds, taken.count(),
                                       ofSizeAskedFor(frame.drawn->statistics, stretched),
-                                      latency.count(), stretched});
+                                      latency.count(), stretched,
+                                      showsSomething(frame.drawn->image, pictures_.background())});
             played_.device = frame.drawn->device;
             drawing += taken.count();
             frameDone_();
@@ -149,7 +160,7 @@ absl::StatusOr<Played> play(PictureSource& pictures, const fabric::Flight& fligh
     resetPeakResidentBytes();
     for (int pass = 0; pass <= options.repeats; ++pass) {
         RETURN_IF_ERROR(passes.play(pass, frames, options.request));
-        if (pass == 0 && std::ranges::none_of(played.frames, showsSomething))
+        if (pass == 0 && std::ranges::none_of(played.frames, &PlayedFrame::showsSomething))
             return nothingSeen(pictures.sceneInfo().bounds);
     }
     played.overheadPercent = passes.overheadPercent();

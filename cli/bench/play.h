@@ -40,13 +40,9 @@ struct PlayedFrame {
     /// From choosing the view to having all of the picture: with one in flight the same as
     /// milliseconds.
     double latencyMilliseconds = 0;
-    double stretch = 1;  ///< of the picture's pixels to those asked for
+    double stretch = 1;          ///< of the picture's pixels to those asked for
+    bool showsSomething = true;  ///< some pixel is not the background's
 };
-
-/// Whether anything of the scene is in the picture's view.
-inline bool showsSomething(const PlayedFrame& frame) {
-    return frame.statistics.nodes + frame.statistics.nodesHidden > 0;
-}
 
 /// Whether its promise is more than was asked for: its data were not there, did not fit into memory
 /// or would have taken longer than a frame time to hold.

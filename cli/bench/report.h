@@ -25,6 +25,7 @@ struct BenchFacts {
     std::string seen = {};           ///< which screen, in options' words; empty: the one there is
     std::uint64_t flightHash = 0;    ///< NamedFlight::hash
     std::uint64_t sceneHash = 0;     ///< of the data's contents, and of where they stand
+    std::uint64_t configurationHash = 0;  ///< cli::configurationHash
 };
 
 struct Report {

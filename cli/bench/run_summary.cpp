@@ -128,7 +128,7 @@ void count(const PlayedFrame& frame, RunSummary& summary) {
     summary.normalErrorMeanDegreesMax =
         std::max(summary.normalErrorMeanDegreesMax, statistics.normalErrorMeanDegrees);
     summary.framesBeyond += isBeyondTau(frame) ? 1 : 0;
-    summary.framesEmpty += showsSomething(frame) ? 0 : 1;
+    summary.framesEmpty += frame.showsSomething ? 0 : 1;
     summary.framesSmaller += isSmaller(frame) ? 1 : 0;
     summary.stretchMax = std::max(summary.stretchMax, frame.stretch);
 }

@@ -146,6 +146,8 @@ WrittenReport reportOf(const Field& field) {
         report.flightHash = bench.at("flightHash").text();
     if (bench.has("sceneHash"))
         report.sceneHash = bench.at("sceneHash").text();
+    if (bench.has("configurationHash"))
+        report.configurationHash = bench.at("configurationHash").text();
     report.processor = field.at("machine").at("processor").text();
     report.device = field.at("machine").at("device").text();
     for (const Field& run : field.at("runs").list()) report.runs.push_back(runOf(run));

@@ -51,6 +51,7 @@ struct WrittenReport {
     std::optional<std::string> seen;  ///< BenchFacts'; nothing in reports of before it was told
     std::string flightHash;           ///< likewise, empty
     std::string sceneHash;            ///< likewise
+    std::string configurationHash;    ///< likewise
     std::vector<WrittenRun> runs;
 };
 

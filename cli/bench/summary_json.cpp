@@ -136,7 +136,8 @@ JsonObject toJson(const BenchFacts& facts) {
         .text("occlusion", facts.occlusion)
         .text("seen", facts.seen)
         .text("flightHash", fmt::format("{:016x}", facts.flightHash))
-        .text("sceneHash", fmt::format("{:016x}", facts.sceneHash));
+        .text("sceneHash", fmt::format("{:016x}", facts.sceneHash))
+        .text("configurationHash", fmt::format("{:016x}", facts.configurationHash));
     return json;
 }
 

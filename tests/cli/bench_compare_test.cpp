@@ -352,6 +352,22 @@ TEST_F(CompareReports, OtherScreensAreRefused) {
     EXPECT_TRUE(compare(before, written(other, "b.json").value(), false).ok()) << "nobody knows";
 }
 
+TEST_F(CompareReports, ConfigurationsOfOneNameThatAreNotTheSameAreRefused) {
+    Report cave = reportTaking(20);
+    cave.facts.seen = "--config cave.eqc";
+    cave.facts.configurationHash = 5;
+    Report other = cave;
+    EXPECT_TRUE(compared(cave, other).ok());
+    other.facts.configurationHash = 7;
+    EXPECT_THAT(std::string(compared(cave, other).status().message()),
+                testing::AllOf(HasSubstr("other configurations"), HasSubstr("--config cave.eqc"),
+                               HasSubstr("--force")));
+    EXPECT_TRUE(compared(cave, other, true).ok());
+    WrittenReport before = written(cave, "a.json").value();
+    before.configurationHash.clear();
+    EXPECT_TRUE(compare(before, written(other, "b.json").value(), false).ok()) << "nobody knows";
+}
+
 TEST_F(CompareReports, DataOfOneNameThatAreNotTheSameAreSaid) {
     Report other = reportTaking(20);
     EXPECT_THAT(compared(reportTaking(20), other)->notes, testing::IsEmpty());

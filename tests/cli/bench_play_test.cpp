@@ -28,7 +28,9 @@ public:
         const int smaller = request.budgetMilliseconds ? 2 : 1;
         frame.image = fabric::makeImage({0, 0, request.width / smaller, request.height / smaller},
                                         {}, request.wantsDepth);
-        frame.statistics.nodes = isSeen ? 1 : 0;
+        frame.statistics.nodes = 1;
+        if (isSeen)
+            frame.image.colour.back() = {90, 90, 90, 255};
         frame.statistics.tauAskedPixels = request.tauPixels;
         frame.statistics.tauAchievedPixels = request.camera.eye.x;
         if (request.budgetMilliseconds)
@@ -38,6 +40,7 @@ public:
     }
     int framesAtOnce() const override { return atOnce_; }
     fabric::SceneInfo sceneInfo() const override { return scene; }
+    fabric::Rgba background() const override { return {}; }
 
     std::atomic<int> drawn{0};
     int failing = 0;  ///< which one
@@ -174,6 +177,18 @@ TEST(ResidentMemory, PeaksDoNotHaveWhatWasFreedBefore) {
     EXPECT_LT(peakResidentBytes() + kBlock * kBlocks / 2, before);
 }
 #endif
+
+/// Nodes may be in view of which no pixel is seen.
+TEST(BenchPlay, AFrameShowsSomethingByItsPixels) {
+    FakePictures pictures(1);
+    const auto seen = playWith(pictures);
+    ASSERT_TRUE(seen.ok()) << seen.status();
+    EXPECT_TRUE(std::ranges::all_of(seen->frames, &PlayedFrame::showsSomething));
+    int done = 0;
+    const auto half = playWith(pictures, [&] { pictures.isSeen = ++done % 2 == 0; });
+    ASSERT_TRUE(half.ok()) << half.status();
+    EXPECT_EQ(std::ranges::count(half->frames, true, &PlayedFrame::showsSomething), 30);
+}
 
 TEST(BenchPlay, AFlightThatSeesNothingSaysSoWithTheRemedyForScenesOfTheirSize) {
     FakePictures pictures(1);

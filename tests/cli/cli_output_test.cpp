@@ -161,6 +161,7 @@ public:
     }
     int framesAtOnce() const override { return atOnce; }
     fabric::SceneInfo sceneInfo() const override { return {}; }
+    fabric::Rgba background() const override { return {}; }
 
     int atOnce = 1;
     std::vector<fabric::PixelViewport> parts;

@@ -80,6 +80,7 @@ public:
         return frame;
     }
     fabric::SceneInfo sceneInfo() const override { return {}; }
+    fabric::Rgba background() const override { return {}; }
 
 private:
     static truth::HeightGrid grid(float height) {
@@ -228,6 +229,7 @@ public:
         return exact_.draw(request);
     }
     fabric::SceneInfo sceneInfo() const override { return {}; }
+    fabric::Rgba background() const override { return {}; }
 
     std::vector<double> taus;
 

@@ -429,6 +429,36 @@ TEST_F(Bench, SaysThatASceneIsTooSmallToBeSeen) {
     EXPECT_FALSE(std::filesystem::exists(path("small measured/errors.csv")));
 }
 
+TEST_F(Bench, AConfigurationIsToldOfOnceAndKnownByWhatItSays) {
+    const auto write = [&](const std::string& name, const std::string& rest) {
+        return folder_->write(name, R"(#Equalizer 1.2 ascii
+server { config {
+    appNode { pipe { window { channel { name "all" } } } }
+    layout { view { } }
+    canvas { layout 0 wall { bottom_left [ -1 -1 -1 ] bottom_right [ 1 -1 -1 ]
+                             top_left [ -1 1 -1 ] } segment { channel "all" } }
+    canvas { layout 0 }
+    )" + rest + "} }\n");
+    };
+    const std::string flight = writeFlight("still.json", key(0, 2500));
+    const auto hashOf = [&](const std::string& config, std::string& told) {
+        const test::Outcome outcome =
+            eyrie({"bench", dem(), "--flight", flight, "--config", config, "--tau", "4,8", "--size",
+                   "160x90", "--frames", "2", "--repeats", "1", "-o", path("configured")});
+        EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors;
+        told = outcome.errors;
+        return test::at(summaryOf(path("configured")), "bench.configurationHash").string_value();
+    };
+    std::string told;
+    const std::string plain = hashOf(write("a.eqc", ""), told);
+    EXPECT_EQ(hashOf(write("b.eqc", "# the same\n"), told), plain);
+    EXPECT_NE(hashOf(write("a.eqc", "latency 2\n"), told), plain);
+    const std::string warning = "warning: ";
+    const auto first = told.find(warning);
+    ASSERT_NE(first, std::string::npos) << told;
+    EXPECT_EQ(told.find(warning, first + 1), std::string::npos) << told;
+}
+
 TEST_F(Bench, AStillCameraIsAFlightAndEmptyFramesAreCounted) {
     const std::string out = R"({"seconds":9,"camera":{"eye":[503840,5194000,2500],)"
                             R"("target":[503840,5190000,2500]}})";
