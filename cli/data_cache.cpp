@@ -63,13 +63,20 @@ absl::StatusOr<std::string> importName(const std::vector<std::string>& sources,
     return fmt::format("{:016x}-{}.eyt", hash, kTerrainImporterVersion);
 }
 
-/// Only .eyt and .eym are read from where they lie.
-absl::Status isHere(const std::string& source) {
-    if (!page::isVirtual(source))
+/// Only .eyt and .eym are drawn from where they lie; rasters can be imported from there.
+absl::Status isHere(const std::string& source, fabric::ObjectKind kind) {
+    if (page::isPlainPath(source))
         return absl::OkStatus();
+    if (kind == fabric::ObjectKind::Mesh)
+        return absl::InvalidArgumentError(fmt::format(
+            "{}: only .eyt and .eym files are drawn from a URL, and meshes are imported "
+            "from files of this machine; download or unpack this one, or name the .eym "
+            "that `eyrie import mesh` made of it",
+            source));
+    RETURN_IF_ERROR(page::checkScheme(source));
     return absl::InvalidArgumentError(fmt::format(
-        "{}: only .eyt and .eym files are drawn from a URL; download this one, or `eyrie "
-        "import` it where it lies and name what that made",
+        "{}: only .eyt and .eym files are drawn from a URL; name what `eyrie import terrain` makes "
+        "of this one, which it reads where it lies, or download it",
         source));
 }
 
@@ -114,10 +121,10 @@ DataCache::DataCache(fs::path folder, ProgressBar::Style progress, std::stop_tok
 
 absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::ObjectKind kind,
                                                const std::vector<std::string>& imagery) {
-    RETURN_IF_ERROR(page::checkScheme(path));
     switch (dataFileOf(path)) {
         case DataFile::Terrain:
         case DataFile::Mesh:
+            RETURN_IF_ERROR(page::checkScheme(path));
             if (!imagery.empty())
                 return absl::InvalidArgumentError(fmt::format(
                     "{}: is imported already, so its imagery ({}) cannot be laid over it; name the "
@@ -138,13 +145,15 @@ absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::
         case DataFile::TerrainSource:
             break;
     }
-    RETURN_IF_ERROR(isHere(path));
-    for (const std::string& picture : imagery) RETURN_IF_ERROR(isHere(picture));
+    RETURN_IF_ERROR(isHere(path, kind));
+    for (const std::string& picture : imagery)
+        RETURN_IF_ERROR(isHere(picture, fabric::ObjectKind::Terrain));
     return imported({path}, kind, imagery);
 }
 
 absl::StatusOr<std::string> DataCache::mosaicOf(const std::vector<std::string>& rasters) {
-    for (const std::string& raster : rasters) RETURN_IF_ERROR(isHere(raster));
+    for (const std::string& raster : rasters)
+        RETURN_IF_ERROR(isHere(raster, fabric::ObjectKind::Terrain));
     absl::StatusOr<std::string> made = imported(rasters, fabric::ObjectKind::Terrain, {});
     // Among others because they have no place in common, or lie too far apart.
     if (absl::IsInvalidArgument(made.status()) || absl::IsResourceExhausted(made.status()))

@@ -225,6 +225,18 @@ TEST_F(SceneFiles, AddressesThatAreNotReadAreNoFilesThatAreMissing) {
     }
 }
 
+TEST_F(SceneFiles, WhatCannotBeDrawnFromAnAddressIsToldWithWhatCan) {
+    for (const char* mesh : {"s3://bucket/m.ply", "/vsis3/bucket/m.ply", "https://h/m.obj"})
+        EXPECT_THAT(assemble({mesh}).status().ToString(),
+                    testing::AllOf(testing::HasSubstr("download or unpack this one"),
+                                   testing::HasSubstr("`eyrie import mesh`"),
+                                   testing::Not(testing::HasSubstr("write /vsi"))));
+    EXPECT_THAT(assemble({"/vsis3/bucket/dem.tif"}).status().ToString(),
+                testing::HasSubstr("`eyrie import terrain` makes of this one"));
+    EXPECT_THAT(assemble({"s3://bucket/m.eym"}).status().ToString(),
+                testing::HasSubstr("write /vsis3/bucket/m.eym"));
+}
+
 /// A picture of one colour without a place, which is stretched over the terrain.
 void writePixels(const std::string& path, char level) {
     std::ofstream(path, std::ios::binary) << "P6 2 2 255\n" << std::string(12, level);
