@@ -52,10 +52,15 @@ class Reading {
 public:
     Reading(HeightSource& source, const terrain::Scratch& scratch, const ImportControl& control,
             terrain::ElevationModel& model, const ReadingShare& share)
-        : source_(source), scratch_(scratch), control_(control), model_(model), share_(share) {}
+        : source_(source),
+          scratch_(scratch),
+          control_(control),
+          model_(model),
+          share_(share),
+          stage_(source.readingStage()) {}
 
     absl::Status run() {
-        control_.report("reading", 0);
+        control_.report(stage_, 0);
         constexpr std::size_t kStripsAtOnce = 4;
         using StripPointer = std::shared_ptr<Strip>;
         tbb::parallel_pipeline(
@@ -71,7 +76,7 @@ public:
                     tbb::filter_mode::parallel, [&](const StripPointer& strip) { store(*strip); }));
         RETURN_IF_ERROR(status_);
         RETURN_IF_ERROR(scratch_.status());
-        control_.report("reading", 1);
+        control_.report(stage_, 1);
         return absl::OkStatus();
     }
 
@@ -125,7 +130,7 @@ private:
         if (!status_.ok())
             return nullptr;
         ++next_;
-        control_.report("reading", static_cast<double>(next_) / stripCount());
+        control_.report(stage_, static_cast<double>(next_) / stripCount());
         return strip;
     }
 
@@ -149,6 +154,7 @@ private:
     const ImportControl& control_;
     terrain::ElevationModel& model_;
     const ReadingShare& share_;
+    const std::string stage_;
     std::int64_t next_ = 0;
     absl::Status status_;
     std::mutex statisticsMutex_;

@@ -23,8 +23,9 @@ struct ReadingShare {
     terrain::TileFilter counted = {};
 };
 
-/// Reads `source`, all of it or a share, into `model`: heights, statistics, summary. Stage
-/// "reading"; memory for a few strips of 129 rows. Errors: the source's, the scratch's, Cancelled.
+/// Reads `source`, all of it or a share, into `model`: heights, statistics, summary. Its stage is
+/// HeightSource::readingStage; memory for a few strips of 129 rows. Errors: the source's, the
+/// scratch's, Cancelled.
 absl::Status readElevation(HeightSource& source, const terrain::Scratch& scratch,
                            const ImportControl& control, terrain::ElevationModel& model,
                            const ReadingShare& share = {});

@@ -24,6 +24,8 @@ public:
     /// The heights of a window of the frame, in metres, row by row; NaN is nodata, and there are no
     /// infinities. Errors: DataLoss.
     virtual absl::Status read(const terrain::PostRect& window, float* out) = 0;
+    /// The stage of reading it all, for people: what takes long is said while it does.
+    virtual std::string readingStage() const { return "reading"; }
     /// What was found in the posts read so far, for people.
     virtual std::vector<std::string> findings() const { return {}; }
     /// What an earlier job found in posts that need not be read again: among the findings from now

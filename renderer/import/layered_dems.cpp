@@ -60,6 +60,20 @@ public:
         return absl::OkStatus();
     }
 
+    std::string readingStage() const override {
+        std::size_t all = 0;
+        std::size_t resampled = 0;
+        for (const LayerReader& reader : layers_) {
+            all += reader.layer().files.size();
+            resampled += reader.layer().warped ? reader.layer().files.size() : 0;
+        }
+        if (resampled == 0)
+            return "reading";
+        return resampled == all
+                   ? "reading and resampling"
+                   : fmt::format("reading and resampling {} of {} rasters", resampled, all);
+    }
+
     std::uint64_t readingBytes() const override {
         constexpr std::uint64_t kWarping = std::uint64_t{40} << 20;  // measured
         return std::ranges::any_of(layers_,

@@ -64,6 +64,24 @@ TEST_F(DemMosaic, SaysThatRastersFarApartLeaveMostOfItEmpty) {
     EXPECT_THAT(notesWith(500900), testing::Not(testing::Contains(HasSubstr("of these posts"))));
 }
 
+/// It is what takes long, and is noted raster by raster at the end.
+TEST_F(DemMosaic, SaysWhileItReadsWhatIsResampled) {
+    const auto stageOf = [](const std::vector<std::string>& rasters) {
+        const auto dem = openDems(rasters, {});
+        return dem.ok() ? dem->posts->readingStage() : std::string(dem.status().message());
+    };
+    const std::string a = write({.west = 500000, .north = 5200100, .height = constant(1)});
+    const std::string b = write({.west = 500050, .north = 5200100, .height = constant(2)});
+    const std::string coarse =
+        write({.west = 500000, .north = 5200200, .pixel = 30, .height = constant(3)});
+    const std::string degrees =
+        write({.epsg = kDegrees, .west = 9.0, .north = 47, .pixel = 0.001, .height = constant(5)});
+    EXPECT_EQ(stageOf({a}), "reading");
+    EXPECT_EQ(stageOf({a, b}), "reading");
+    EXPECT_EQ(stageOf({degrees}), "reading and resampling");
+    EXPECT_EQ(stageOf({a, coarse, b}), "reading and resampling 1 of 3 rasters");
+}
+
 TEST_F(DemMosaic, TakesTheLastNamedOfEquallyFineOnes) {
     const std::string a = write({.west = 500000, .north = 5200100, .height = constant(1)});
     const std::string b = write({.west = 500050, .north = 5200100, .height = constant(2)});
