@@ -2,12 +2,21 @@
 #include "renderer/terrain/terrain_cut.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
+
+#include <glm/geometric.hpp>
 
 #include "renderer/lod/vertical_error.h"
 
 namespace eyrie::terrain {
 namespace {
+
+struct Limits {
+    double pixels;
+    double metres;  ///< of heights, where colours tell
+};
 
 /// The error of one tile as one view sees it.
 class TileError {
@@ -19,7 +28,8 @@ public:
     /// By the box of the whole tile: quick.
     double atMost() const { return over(tile_); }
 
-    bool exceeds(double pixels) const { return exceeds(tile_, levelsDown(), pixels); }
+    /// Whether a part is beyond either.
+    bool exceeds(const Limits& limits) const { return exceeds(tile_, levelsDown(), limits); }
 
     /// The greatest over the parts; or anything up to `enough` when it is no more than that.
     double pixels(double enough) const {
@@ -107,16 +117,32 @@ private:
                 visit(child);
     }
 
-    bool exceeds(const TileId& part, int levelsDown, double pixels) const {
-        if (over(part) <= pixels)
+    bool exceeds(const TileId& part, int levelsDown, const Limits& limits) const {
+        const bool isFar = over(part) > limits.pixels;
+        if (!isFar && errorMetres(part) <= limits.metres)
             return false;
         if (levelsDown == 0)
-            return true;
+            return isFar || showsHeights(part, limits);
         bool any = false;
         forEachChild(part, [&](const TileId& child) {
-            any = any || exceeds(child, levelsDown - 1, pixels);
+            any = any || exceeds(child, levelsDown - 1, limits);
         });
         return any;
+    }
+
+    /// Whether colours may tell heights of a part that are `limits.metres` apart: neither do the
+    /// tile's posts lie within `limits.pixels` of each other, nor, on the whole, such heights. The
+    /// finest level has every post, however little they matter: colours alone do not ask for it.
+    bool showsHeights(const TileId& part, const Limits& limits) const {
+        const fabric::Box bounds = boundsOf(part);
+        const auto& lattice = index_.objectFromLattice;
+        const double post = std::max(glm::length(lattice[0]), glm::length(lattice[1]));
+        const double partMetres = std::max(bounds.size().x, bounds.size().y);
+        const double heights = bounds.size().z / limits.metres;
+        return tile_.level > 1 && view_.isVisible(bounds) &&
+               view_.screenSpaceErrorPixels(std::ldexp(post, tile_.level), bounds) >
+                   limits.pixels &&
+               view_.screenSpaceErrorPixels(partMetres, bounds) > heights * limits.pixels;
     }
 
     /// `own` is over(part).
@@ -142,14 +168,14 @@ private:
     const DrawnGround& ground_;
 };
 
-void refine(const EytIndex& index, const lod::ObjectView& view, double tauPixels,
+void refine(const EytIndex& index, const lod::ObjectView& view, const Limits& limits,
             const TileId& tile, Refinement& refinement) {
     if (tile.level == 0 || !view.isVisible(index.bounds(tile)) ||
-        !TileError(index, view, tile).exceeds(tauPixels))
+        !TileError(index, view, tile).exceeds(limits))
         return;
     refinement.split(tile);
     refinement.forEachChild(
-        tile, [&](const TileId& child) { refine(index, view, tauPixels, child, refinement); });
+        tile, [&](const TileId& child) { refine(index, view, limits, child, refinement); });
 }
 
 std::uint8_t finerEdges(const Refinement& refinement, const TileId& tile) {
@@ -172,9 +198,18 @@ double outlineErrorPixels(const EytIndex& index, const lod::ObjectView& view, co
     return TileError(index, view, tile).ofOutlines();
 }
 
+double heightToleranceMetres(const EytIndex& index) {
+    constexpr double kReliefShare = 1.0 / 8;
+    constexpr double kLeastSteps = 2;  // what is stored is off by half a one
+    return index.imagery ? std::numeric_limits<double>::infinity()
+                         : std::max(kReliefShare * index.bounds().size().z,
+                                    kLeastSteps * index.heightStepMetres());
+}
+
 Refinement refineForError(const EytIndex& index, const lod::ObjectView& view, double tauPixels) {
     Refinement refinement(index.quadtree);
-    refine(index, view, tauPixels, index.quadtree.top(), refinement);
+    refine(index, view, {tauPixels, tauPixels * heightToleranceMetres(index)}, index.quadtree.top(),
+           refinement);
     refinement.restrict();
     return refinement;
 }

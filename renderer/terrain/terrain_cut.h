@@ -39,6 +39,11 @@ double screenSpaceErrorPixels(const EytIndex& index, const lod::ObjectView& view
 /// The same of those parts alone where the outline of a hole may be off; 0 where there are none.
 double outlineErrorPixels(const EytIndex& index, const lod::ObjectView& view, const TileId& tile);
 
+/// By how much heights may be off that colours go by, at tau 1: an eighth of the relief. Where all
+/// relief is lower than a pixel is wide, everything is in its place on a plain, whatever its
+/// colour. Infinite under imagery, which has colours of its own.
+double heightToleranceMetres(const EytIndex& index);
+
 /// What is known of a cut beyond the index. Either may be empty.
 struct DrawnGround {
     /// A bound on the error of a tile that is narrower than `pixels`, where there is one; anything
@@ -49,8 +54,10 @@ struct DrawnGround {
     std::function<bool(const fabric::Box& bounds, double pixels)> isHidden;
 };
 
-/// The coarsest restricted refinement whose visible tiles keep `tauPixels`, as far as the data go.
-/// Depends on the view alone, so all channels of a frame, on whatever node, choose the same.
+/// The coarsest restricted refinement whose visible tiles keep `tauPixels`, as far as the data go,
+/// and, down to level 1, tauPixels times heightToleranceMetres() where colours may tell: not where
+/// a tile's posts, or heights that far apart, follow each other within `tauPixels`. Depends on the
+/// view alone, so all channels of a frame, on whatever node, choose the same.
 Refinement refineForError(const EytIndex& index, const lod::ObjectView& view, double tauPixels);
 
 /// The leaves of a restricted refinement, and how they are drawn.

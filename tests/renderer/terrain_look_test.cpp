@@ -48,8 +48,9 @@ protected:
     }
 
     fabric::ChannelResult draw(const fabric::Look& look, const fabric::Camera& from,
-                               fabric::Shading shading = fabric::Shading::Smooth) {
-        const fabric::FrameData frame{1, from, 1, shading, look};
+                               fabric::Shading shading = fabric::Shading::Smooth,
+                               double tauPixels = 1) {
+        const fabric::FrameData frame{1, from, tauPixels, shading, look};
         fabric::ChannelTask task;
         task.frameDataVersion = 1;
         task.viewWidth = kWidth;
@@ -126,6 +127,24 @@ TEST_F(TerrainLookTest, OnlyColoursChangeWithColouring) {
         EXPECT_EQ(other.statistics.tauAchievedPixels, plain.statistics.tauAchievedPixels);
         EXPECT_GT(differing(other.image, plain.image), 1000U);
     }
+}
+
+double meanDifference(const fabric::Image& a, const fabric::Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.colour.size(); ++i)
+        sum += std::abs(a.colour[i].r - b.colour[i].r) + std::abs(a.colour[i].g - b.colour[i].g) +
+               std::abs(a.colour[i].b - b.colour[i].b);
+    return sum / 3.0 / static_cast<double>(covered(b));
+}
+
+/// All of the relief is less than a pixel high.
+TEST_F(TerrainLookTest, HillsThatAreNothingButAColourAreSeen) {
+    const fabric::Look flat{.exaggeration = 1e-4};
+    const fabric::ChannelResult drawn = draw(flat, camera(0.8));
+    const fabric::ChannelResult finest =
+        draw(flat, camera(0.8), fabric::Shading::Smooth, fabric::kMinTauPixels);
+    EXPECT_GT(finest.statistics.triangles, 4 * drawn.statistics.triangles);
+    EXPECT_LT(meanDifference(drawn.image, finest.image), 2);
 }
 
 TEST_F(TerrainLookTest, WithoutSaturationAllIsGrey) {

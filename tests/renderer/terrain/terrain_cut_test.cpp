@@ -130,6 +130,33 @@ TEST_P(TerrainCutLaws, KeepsTauOnEveryVisibleTileAboveTheFinestLevel) {
     EXPECT_EQ(screenSpaceErrorPixels(index_, *view_, cut_), worst);
 }
 
+/// Parts of tiles that are not at the ends of the tree.
+TEST_P(TerrainCutLaws, KeepsHeightsWhereColoursTellThem) {
+    // By its height no ground is off by a pixel; errors are 4 m and more where tiles are coarse.
+    for (TileRecord& tile : index_.tiles) tile.maxHeightMetres = 16;
+    fabric::Mat4 flat(1.0);
+    flat[2][2] = 1e-6;
+    const lod::ObjectView view(view_->view(), flat);
+    const double tolerance = tau_ * heightToleranceMetres(index_);
+    EXPECT_EQ(heightToleranceMetres(index_), 2);
+    for (const TileChoice& choice : selectCut(index_, view, tau_).tiles) {
+        const TileRecord& tile = index_.tile(choice.id);
+        for (int x = 0; x < kTilePartsPerSide && choice.isVisible && choice.id.level > 1; ++x)
+            for (int y = 0; y < kTilePartsPerSide; ++y) {
+                const TileId part{choice.id.level - 2, choice.id.x * kTilePartsPerSide + x,
+                                  choice.id.y * kTilePartsPerSide + y};
+                if (!index_.quadtree.contains(part) || tile.errorMetresOf(x, y, 1) <= tolerance)
+                    continue;
+                const fabric::Box box = index_.bounds(part);
+                const double post = 30 << choice.id.level;
+                const double side = std::max(box.size().x, box.size().y);
+                EXPECT_TRUE(!view.isVisible(box) ||
+                            view.screenSpaceErrorPixels(post, box) <= tau_ ||
+                            view.screenSpaceErrorPixels(side, box) <= tau_ * 16 / tolerance);
+            }
+    }
+}
+
 TEST_P(TerrainCutLaws, IsTheSameEachTimeAndInDepthFirstOrder) {
     const TerrainCut again = selectCut(index_, *view_, tau_);
     EXPECT_EQ(again.tiles, cut_.tiles);
