@@ -99,7 +99,7 @@ absl::Status addFlight(const std::string& name, const access::DataFolder& folder
     const absl::StatusOr<v1::Flight> flight = readFlight(folder, name);
     if (!flight.ok())
         return fabric::withContext(flight.status(), "flight");
-    order.flightName = fmt::format("flight-{}.json", name);
+    order.flightName = fmt::format("{}{}.json", kFlightFileBegin, name);
     order.flightJson = wire::toJson(*flight);
     order.arguments.push_back("--flight=" + order.flightName);
     return absl::OkStatus();
@@ -115,9 +115,10 @@ absl::StatusOr<fs::path> placeOf(const v1::BenchRequest& request,
     if (before.ok() && !request.replace())
         return absl::AlreadyExistsError(fmt::format(
             "output '{}' is there already; choose another name, or set replace", request.output()));
-    std::error_code error;
-    if (before.ok() && fs::is_directory(*before, error))
+    if (before.ok()) {
+        RETURN_IF_ERROR(fabric::withContext(checkIsReport(*before, request.output()), "output"));
         return *before;
+    }
     const absl::StatusOr<fs::path> place = folder.place(request.output());
     return place.ok() ? place : fabric::withContext(place.status(), "output");
 }
@@ -132,21 +133,51 @@ absl::Status write(const fs::path& path, const std::string& text) {
                        : absl::OkStatus();
 }
 
-/// `made` into its place, and what was there into `work`.
-absl::Status moveInto(const fs::path& made, const BenchOrder& order, const fs::path& work) {
+absl::Status cannotBePlaced(const std::error_code& error) {
+    return absl::UnavailableError(
+        fmt::format("the report cannot be put in its place: {}", error.message()));
+}
+
+/// `before` to where it was moved from, since `why`. Where that cannot be, it stays in `work`.
+absl::Status putBack(const fs::path& before, const fs::path& place, absl::Status why,
+                     WorkFolder& work) {
     std::error_code error;
-    const bool isThere = fs::exists(order.output, error);
+    fs::rename(before, place, error);
+    if (!error)
+        return why;
+    work.leave();
+    return absl::UnavailableError(
+        fmt::format("{}; what was there is '{}/{}' beside it now", std::string(why.message()),
+                    work.path().filename().string(), before.filename().string()));
+}
+
+/// `made` into the place of what is there, which goes with `work` where it is a report.
+absl::Status exchange(const fs::path& made, const fs::path& place, WorkFolder& work) {
+    const fs::path before = work.path() / "before";
+    std::error_code error;
+    fs::rename(place, before, error);
+    if (error)
+        return cannotBePlaced(error);
+    // What has come since the order was taken is looked for where nobody puts more any longer.
+    absl::Status status =
+        fabric::withContext(checkIsReport(before, place.filename().string()), "output");
+    if (!status.ok())
+        return putBack(before, place, std::move(status), work);
+    fs::rename(made, place, error);
+    return error ? putBack(before, place, cannotBePlaced(error), work) : absl::OkStatus();
+}
+
+absl::Status moveInto(const fs::path& made, const BenchOrder& order, WorkFolder& work) {
+    std::error_code error;
+    const bool isThere = fs::exists(fs::symlink_status(order.output, error));
     if (isThere && !order.replaces)
         return absl::AlreadyExistsError(
             fmt::format("output '{}' is there by now; choose another name, or set replace",
                         order.output.filename().string()));
     if (isThere)
-        fs::rename(order.output, work / "before", error);
-    if (!error)
-        fs::rename(made, order.output, error);
-    return error ? absl::UnavailableError(
-                       fmt::format("the report cannot be put in its place: {}", error.message()))
-                 : absl::OkStatus();
+        return exchange(made, order.output, work);
+    fs::rename(made, order.output, error);
+    return error ? cannotBePlaced(error) : absl::OkStatus();
 }
 
 }  // namespace
@@ -156,11 +187,14 @@ absl::StatusOr<BenchOrder> benchOrderOf(const v1::BenchRequest& request,
                                         const fabric::Scene& scene, std::uint64_t memoryBytes) {
     BenchOrder order;
     ASSIGN_OR_RETURN(order.output, placeOf(request, folder));
+    RETURN_IF_ERROR(fabric::withContext(
+        checkIsInNoReport(order.output.lexically_relative(folder.path())), "output"));
     order.replaces = request.replace();
     if (scene.objects.empty())
         return absl::FailedPreconditionError("scene is absent, and nothing is drawn now; name one");
     order.sceneJson = wire::toJson(wire::toMessage(scene));
-    order.arguments = {"bench", "scene.json", "--quiet", "--progress-json", "--output=."};
+    order.arguments = {"bench", std::string(kSceneFile), "--quiet", "--progress-json",
+                       "--output=."};
     RETURN_IF_ERROR(addFlight(request.flight(), folder, order));
     RETURN_IF_ERROR(addFigures(request, order.arguments));
     RETURN_IF_ERROR(addReference(request, memoryBytes, order));
@@ -169,11 +203,11 @@ absl::StatusOr<BenchOrder> benchOrderOf(const v1::BenchRequest& request,
 
 absl::Status carryOut(const BenchOrder& order, const RunProgram& run,
                       const Operations::Progress& progress, const std::stop_token& stop) {
-    ASSIGN_OR_RETURN(const WorkFolder work, WorkFolder::in(order.output.parent_path(), "bench"));
+    ASSIGN_OR_RETURN(WorkFolder work, WorkFolder::in(order.output.parent_path(), "bench"));
     const fs::path report = work.path() / "report";
     std::error_code error;
     fs::create_directory(report, error);
-    RETURN_IF_ERROR(write(report / "scene.json", order.sceneJson));
+    RETURN_IF_ERROR(write(report / kSceneFile, order.sceneJson));
     if (!order.flightName.empty())
         RETURN_IF_ERROR(write(report / order.flightName, order.flightJson));
     const absl::Status end = runToItsEnd(order.arguments, report, run, progress, stop).status();
@@ -181,7 +215,7 @@ absl::Status carryOut(const BenchOrder& order, const RunProgram& run,
         end.ok() || (order.measuresErrors && !stop.stop_requested() &&
                      fs::exists(report / fileNameOf(v1::REPORT_FILE_SUMMARY), error));
     if (isWhole)
-        RETURN_IF_ERROR(moveInto(report, order, work.path()));
+        RETURN_IF_ERROR(moveInto(report, order, work));
     return end;
 }
 

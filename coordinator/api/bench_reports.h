@@ -16,6 +16,14 @@ namespace eyrie::api {
 /// What `eyrie bench` calls it: "summary.json".
 std::string_view fileNameOf(v1::ReportFile file);
 
+/// FailedPrecondition, naming `name` and what is in the way, unless what lies at `path` is a folder
+/// of nothing, or of nothing but what a bench run of the API writes, its summary among that: what
+/// replaces it removes no other file.
+absl::Status checkIsReport(const std::filesystem::path& path, std::string_view name);
+
+/// InvalidArgument where the file or folder `name` would lie in a report, and go with it.
+absl::Status checkIsInNoReport(const std::filesystem::path& name);
+
 /// A report's file that may be read.
 struct FoundReport {
     std::filesystem::path path;

@@ -11,6 +11,7 @@
 #include <google/protobuf/struct.pb.h>
 #include <google/protobuf/util/json_util.h>
 
+#include "coordinator/api/bench_reports.h"
 #include "coordinator/api/data_sets.h"
 #include "coordinator/api/work_folder.h"
 #include "fabric/name_beside.h"
@@ -181,6 +182,7 @@ absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
     order.output = *output;
     const std::string listed = order.output.lexically_relative(folder.path()).string();
     RETURN_IF_ERROR(fabric::withContext(checkIsListed(listed), "output"));
+    RETURN_IF_ERROR(fabric::withContext(checkIsInNoReport(listed), "output"));
     ASSIGN_OR_RETURN(order.kind, kindOf(order.output));
     order.replaces = request.replace();
     RETURN_IF_ERROR(checkChoices(request, order.kind));

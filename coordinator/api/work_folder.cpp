@@ -44,7 +44,7 @@ absl::StatusOr<WorkFolder> WorkFolder::in(const fs::path& parent, std::string_vi
 
 WorkFolder::~WorkFolder() {
     std::error_code error;
-    if (!path_.empty())
+    if (goes_ && !path_.empty())
         fs::remove_all(path_, error);
 }
 

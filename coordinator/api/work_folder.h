@@ -16,22 +16,27 @@
 /// What operations that run programs have in common.
 namespace eyrie::api {
 
-/// A hidden folder that goes with this object, and all that is in it.
+/// A hidden folder that goes with this object, and all that is in it, unless it is left.
 class WorkFolder {
 public:
     /// Beside what is being made, so that it can be moved into its place; `purpose` is in its name.
     /// Unavailable: nothing can be written there.
     static absl::StatusOr<WorkFolder> in(const std::filesystem::path& parent,
                                          std::string_view purpose);
-    WorkFolder(WorkFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+    WorkFolder(WorkFolder&& other) noexcept
+        : path_(std::exchange(other.path_, {})), goes_(other.goes_) {}
     ~WorkFolder();
     WorkFolder& operator=(WorkFolder&&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
 
+    /// It stays, with what is in it.
+    void leave() { goes_ = false; }
+
 private:
     explicit WorkFolder(std::filesystem::path path) : path_(std::move(path)) {}
     std::filesystem::path path_;
+    bool goes_ = true;
 };
 
 /// What `run` of `arguments` in `folder` writes to its standard output, telling what the program's

@@ -221,9 +221,11 @@ TEST_F(ApiBench, AsksForNothingThatIsBeyondWhatItTakes) {
 TEST_F(ApiBench, ReplacesAReportOnlyWhenToldTo) {
     ASSERT_EQ(run("a"), v1::OPERATION_STATE_DONE);
     EXPECT_EQ(statusOf(R"({"output":"one.bench","requestId":"b"})"), 409);
-    std::ofstream(data() / "one.bench/more.txt") << "of the first";
+    std::ofstream(data() / "one.bench/errors.csv") << "of the first";
+    std::ofstream(data() / "one.bench/flight-round.json") << "of the first";
     ASSERT_EQ(run("c", R"(,"replace":true)"), v1::OPERATION_STATE_DONE);
-    EXPECT_FALSE(fs::exists(data() / "one.bench/more.txt"));
+    EXPECT_FALSE(fs::exists(data() / "one.bench/errors.csv"));
+    EXPECT_FALSE(fs::exists(data() / "one.bench/flight-round.json"));
     EXPECT_TRUE(fs::exists(data() / "one.bench/summary.json"));
     EXPECT_THAT(names(), ElementsAre("a.eyt", "one.bench"));
     std::ofstream(data() / "file.bench") << "x";
@@ -232,6 +234,59 @@ TEST_F(ApiBench, ReplacesAReportOnlyWhenToldTo) {
     // Asked for once more, it is the same.
     EXPECT_EQ(run("c", R"(,"replace":true)"), v1::OPERATION_STATE_DONE);
     EXPECT_EQ(commands_.size(), 2U);
+}
+
+TEST_F(ApiBench, ReplacesNothingButAReport) {
+    ASSERT_EQ(run("a"), v1::OPERATION_STATE_DONE);
+    const auto refusal = [&](const std::string& output) {
+        const RestAnswer answer =
+            ask("POST", "/bench-runs", fmt::format(R"({{"output":"{}","replace":true}})", output));
+        EXPECT_EQ(answer.status, 409) << *answer.body;
+        return *answer.body;
+    };
+    for (const char* other : {"mesh.eym", "mesh.eym.source", "notes.txt", ".hidden"}) {
+        const fs::path path = data() / "one.bench" / other;
+        std::ofstream(path) << "not of a report";
+        EXPECT_THAT(refusal("one.bench"), HasSubstr(fmt::format("holds '{}'", other)));
+        EXPECT_EQ(textOf(path), "not of a report");
+        fs::remove(path);
+    }
+    fs::create_directory(data() / "one.bench/errors.csv");
+    EXPECT_THAT(refusal("one.bench"), HasSubstr("holds 'errors.csv'")) << "a folder of that name";
+    fs::remove(data() / "one.bench/errors.csv");
+    std::ofstream(data() / "file.bench") << "x";
+    EXPECT_THAT(refusal("file.bench"), HasSubstr("it is no folder"));
+    fs::create_directory(data() / "own.bench");
+    std::ofstream(data() / "own.bench/scene.json") << "somebody's";
+    EXPECT_THAT(refusal("own.bench"), HasSubstr("holds 'scene.json' and no summary.json"));
+    EXPECT_EQ(commands_.size(), 1U);
+    EXPECT_EQ(statusOf(R"({"output":"one.bench/two.bench"})"), 400) << "it would go with the other";
+    EXPECT_EQ(run("b", R"(,"replace":true)"), v1::OPERATION_STATE_DONE);
+}
+
+TEST_F(ApiBench, KeepsWhatHasComeToItsPlaceMeanwhile) {
+    ASSERT_EQ(run("a"), v1::OPERATION_STATE_DONE);
+    const fs::path report = data() / "one.bench";
+    run_ = [&](const fs::path& folder, const Heard& heard, const std::stop_token& stop) {
+        std::ofstream(report / "mesh.eym") << "imported meanwhile";
+        return writeReport(folder, heard, stop);
+    };
+    EXPECT_EQ(run("b", R"(,"replace":true)"), v1::OPERATION_STATE_FAILED);
+    EXPECT_THAT(ended("b").problem(), HasSubstr("holds 'mesh.eym'"));
+    EXPECT_EQ(textOf(report / "mesh.eym"), "imported meanwhile");
+    EXPECT_TRUE(fs::exists(report / "summary.json"));
+    EXPECT_THAT(names(), ElementsAre("a.eyt", "one.bench"));
+}
+
+TEST_F(ApiBench, AReportWhoseSuccessorCannotTakeItsPlaceGoesBackThere) {
+    ASSERT_EQ(run("a"), v1::OPERATION_STATE_DONE);
+    run_ = [](const fs::path& folder, const Heard&, const std::stop_token&) {
+        fs::remove_all(folder);
+        return absl::StatusOr<ProgramEnd>(ProgramEnd());
+    };
+    EXPECT_EQ(run("b", R"(,"replace":true)"), v1::OPERATION_STATE_FAILED);
+    EXPECT_EQ(*ask("GET", "/reports/one.bench").body, R"({"runs":[]})");
+    EXPECT_THAT(names(), ElementsAre("a.eyt", "one.bench"));
 }
 
 TEST_F(ApiBench, LeavesNothingOfWhatFailedOrWasCalledOff) {

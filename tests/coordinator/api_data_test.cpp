@@ -356,6 +356,20 @@ TEST_F(RestData, ImportsNothingThatItWouldNotList) {
     }
 }
 
+TEST_F(RestData, ImportsNothingIntoReports) {
+    fs::create_directories(data() / "one.bench/deeper");
+    fs::create_directory_symlink(data() / "one.bench", data() / "link");
+    for (const char* output : {"one.bench/a.eyt", "one.bench/deeper/a.eyt", "link/a.eyt"}) {
+        const RestAnswer answer =
+            ask("POST", "/imports",
+                fmt::format(R"({{"sources":["survey/dem.tif"],"output":"{}"}})", output));
+        EXPECT_EQ(answer.status, 400) << output;
+        EXPECT_EQ(member(answer, "field"), "output") << output;
+        EXPECT_THAT(member(answer, "detail"), HasSubstr("'one.bench'")) << output;
+    }
+    EXPECT_THAT(commands_, IsEmpty());
+}
+
 TEST_F(RestData, RefusesWhatIsNotOfTheKind) {
     const auto isRefused = [&](const std::string& output, const std::string& more) {
         return ask("POST", "/imports",
