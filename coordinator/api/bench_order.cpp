@@ -2,7 +2,6 @@
 #include "coordinator/api/bench_order.h"
 
 #include <cstdint>
-#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -10,6 +9,7 @@
 
 #include "coordinator/api/bench_reports.h"
 #include "coordinator/api/flight_files.h"
+#include "coordinator/api/replace_file.h"
 #include "coordinator/api/work_folder.h"
 #include "fabric/frame_data.h"
 #include "fabric/status.h"
@@ -123,14 +123,12 @@ absl::StatusOr<fs::path> placeOf(const v1::BenchRequest& request,
     return place.ok() ? place : fabric::withContext(place.status(), "output");
 }
 
-absl::Status write(const fs::path& path, const std::string& text) {
-    std::ofstream file(path, std::ios::trunc);
-    file << text;
-    file.close();
-    return file.fail() ? absl::UnavailableError(
-                             "nothing can be written beside the output; see that the data folder "
-                             "is writable and not full")
-                       : absl::OkStatus();
+absl::Status write(const fs::path& path, const std::string& text, Readers readers) {
+    return replaceFile(path, text, readers)
+               ? absl::UnavailableError(
+                     "nothing can be written beside the output; see that the data folder is "
+                     "writable and not full")
+               : absl::OkStatus();
 }
 
 absl::Status cannotBePlaced(const std::error_code& error) {
@@ -207,9 +205,9 @@ absl::Status carryOut(const BenchOrder& order, const RunProgram& run,
     const fs::path report = work.path() / "report";
     std::error_code error;
     fs::create_directory(report, error);
-    RETURN_IF_ERROR(write(report / kSceneFile, order.sceneJson));
+    RETURN_IF_ERROR(write(report / kSceneFile, order.sceneJson, Readers::OwnerAlone));
     if (!order.flightName.empty())
-        RETURN_IF_ERROR(write(report / order.flightName, order.flightJson));
+        RETURN_IF_ERROR(write(report / order.flightName, order.flightJson, Readers::Others));
     const absl::Status end = runToItsEnd(order.arguments, report, run, progress, stop).status();
     const bool isWhole =  // the summary is written last
         end.ok() || (order.measuresErrors && !stop.stop_requested() &&

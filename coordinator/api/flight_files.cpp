@@ -113,7 +113,7 @@ absl::Status writeFlight(const access::DataFolder& folder, const std::string& na
     if (error)
         return cannot("written", error);
     ASSIGN_OR_RETURN(const fs::path path, pathOf(folder, name));
-    if (error = replaceFile(path, wire::toJson(flight)); error)
+    if (error = replaceFile(path, wire::toJson(flight), Readers::Others); error)
         return cannot("written", error);
     return absl::OkStatus();
 }

@@ -28,12 +28,13 @@ std::error_code writeAndFlush(int file, std::string_view text) {
 
 }  // namespace
 
-std::error_code replaceFile(const fs::path& path, std::string_view text) {
+std::error_code replaceFile(const fs::path& path, std::string_view text, Readers readers) {
     std::random_device random;
     const fs::path partial =
         path.parent_path() /
         fmt::format(".{}.partial-{:08x}{:08x}", path.filename().string(), random(), random());
-    const int file = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    const int file = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
+                            readers == Readers::OwnerAlone ? 0600 : 0666);
     if (file < 0)
         return lastError();
     std::error_code error = writeAndFlush(file, text);

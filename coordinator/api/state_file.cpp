@@ -187,7 +187,7 @@ absl::Status StateFile::tryToWrite(const std::string& json) {
     const absl::StatusOr<fs::path> path = folder_.place(kName);
     if (!path.ok())
         return absl::UnavailableError(path.status().message());
-    const std::error_code error = replaceFile(*path, json);
+    const std::error_code error = replaceFile(*path, json, Readers::OwnerAlone);
     return error ? absl::UnavailableError(fmt::format("{}; {}", error.message(), kRemedy))
                  : absl::OkStatus();
 }

@@ -91,6 +91,9 @@ TEST_F(ApiBench, MakesAReportThatCanBeFetched) {
                                  "--repeats=5", "--renderers=0", "--progress-json"})
         EXPECT_THAT(commands_[0], Contains(argument));
     EXPECT_THAT(scene_, HasSubstr("hill.eyt")) << "what is drawn now";
+    EXPECT_EQ(fs::status(data() / "one.bench/scene.json").permissions(),
+              fs::perms::owner_read | fs::perms::owner_write)
+        << "addresses in it are whole";
     EXPECT_THAT(names(), ElementsAre("a.eyt", "one.bench"));
 
     const RestAnswer summary = ask("GET", "/reports/one.bench");

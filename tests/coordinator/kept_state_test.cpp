@@ -202,6 +202,17 @@ TEST_F(KeptState, IsLeftOutWhereItsFilesAreGone) {
     expectScene("started with");
 }
 
+TEST_F(KeptState, IsReadByItsOwnerAlone) {
+    using std::filesystem::perms;
+    coordinator_.reset();
+    std::ofstream(file()) << "{}";  // as versions before wrote it, for all to read
+    start();
+    setScene();
+    coordinator_.reset();
+    EXPECT_EQ(std::filesystem::status(file()).permissions(),
+              perms::owner_read | perms::owner_write);
+}
+
 TEST_F(KeptState, ThatIsDamagedIsSetAside) {
     setScene();
     setConfiguration();
