@@ -2,8 +2,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -21,6 +23,7 @@
 #include "cli/values.h"
 #include "fabric/shown_name.h"
 #include "fabric/status.h"
+#include "renderer/import/mesh_reader.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/import/terrain_shard.h"
 
@@ -79,9 +82,23 @@ void printNotes(const TerrainOptions& options, const std::vector<std::string>& n
         tell(fmt::format("{}: {}", titleOf(options.sources), note));
 }
 
+/// GDAL would say of a mesh that it is no raster, which nobody can mend who wants a mesh.
+absl::Status checkFiles(const TerrainOptions& options) {
+    RETURN_IF_ERROR(checkEnding(options, ".eyt"));
+    for (const std::string& source : options.sources) {
+        std::error_code error;
+        if (import::isMeshSource(source) && std::filesystem::is_regular_file(source, error))
+            return absl::InvalidArgumentError(
+                fmt::format("{}: is a mesh by its name, and {} would be a terrain; import it with "
+                            "`eyrie import mesh`, to a name that ends in .eym",
+                            source, options.out));
+    }
+    return absl::OkStatus();
+}
+
 absl::Status importTerrain(const TerrainOptions& options) {
     StopSignal stop;
-    RETURN_IF_ERROR(checkEnding(options, ".eyt"));
+    RETURN_IF_ERROR(checkFiles(options));
     ASSIGN_OR_RETURN(const import::TerrainImportOptions how, importOptions(options));
     const StopWatch watch;
     absl::StatusOr<import::TerrainImportReport> made;
@@ -125,7 +142,7 @@ absl::Status importTerrain(const TerrainOptions& options) {
 
 absl::Status importShard(const TerrainOptions& options) {
     StopSignal stop;
-    RETURN_IF_ERROR(checkEnding(options, ".eyt"));
+    RETURN_IF_ERROR(checkFiles(options));
     ASSIGN_OR_RETURN(const ShardNumber shard,
                      parseShard(options.shard, import::kMaxShards, "--shard"));
     ASSIGN_OR_RETURN(const import::TerrainImportOptions how, importOptions(options));

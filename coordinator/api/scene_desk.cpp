@@ -66,7 +66,8 @@ void SceneDesk::begin(fabric::Scene scene) {
     if (shown.ok())
         return;
     if (hasKept)
-        spdlog::warn("the scene of the command line is shown, and not the one that was set: {}",
+        spdlog::warn("{} is shown, and not the scene that was set: {}",
+                     scene.objects.empty() ? "nothing" : "the scene of the command line",
                      std::string_view(shown.message().data(), shown.message().size()));
     setScene_(std::move(scene));
 }

@@ -121,8 +121,11 @@ absl::StatusOr<fs::path> DataFolder::place(std::string_view name) const {
     // What is wrong is then wrong with the folder, not with what is to be put there.
     const std::string_view folderName = name.substr(0, name.rfind('/'));
     ASSIGN_OR_RETURN(const fs::path folder, resolve(path.parent_path(), folderName));
-    fs::path file = folder / path.filename();
     std::error_code error;
+    if (!fs::is_directory(folder, error))
+        return cannotReach(folderName,
+                           error ? error : std::make_error_code(std::errc::not_a_directory));
+    fs::path file = folder / path.filename();
     const fs::file_status now = fs::symlink_status(file, error);
     if (now.type() == fs::file_type::not_found || now.type() == fs::file_type::regular)
         return file;

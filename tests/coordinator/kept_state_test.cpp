@@ -24,6 +24,7 @@
 #include "coordinator/coordinator.h"
 #include "eyrie/v1/kept_state.pb.h"
 #include "tests/service/eventually.h"
+#include "tests/support/captured_log.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/without_rights.h"
 
@@ -200,6 +201,24 @@ TEST_F(KeptState, IsLeftOutWhereItsFilesAreGone) {
     std::filesystem::remove(data() / "a.eym");
     start();
     expectScene("started with");
+}
+
+TEST_F(KeptState, ThatIsLeftOutIsToldWithWhatIsShownInItsPlace) {
+    const auto told = [&] {
+        const test::CapturedLog log;
+        start();
+        EXPECT_TRUE(coordinator_->setScene(options_.scene).ok());
+        coordinator_.reset();
+        return log.text();
+    };
+    setScene();
+    std::filesystem::remove(data() / "a.eym");
+    EXPECT_THAT(told(), HasSubstr("the scene of the command line is shown, and not the scene that "
+                                  "was set: "));
+    options_.scene = {};
+    const std::string without = told();
+    EXPECT_THAT(without, HasSubstr("nothing is shown, and not the scene that was set: "));
+    EXPECT_THAT(without, Not(HasSubstr("of the command line")));
 }
 
 TEST_F(KeptState, IsReadByItsOwnerAlone) {

@@ -179,6 +179,10 @@ TEST_F(BadInput, ElevationModelsThatAreNoneAreRefusedByName) {
     ASSERT_TRUE(whole.ok()) << whole.status();
     folder_.write("cut.tif", whole->substr(0, whole->size() / 2));
     expectRefused({"import", "terrain", bad("cut.tif"), "-o", bad("out.eyt")}, {"cut.tif"});
+    folder_.write("mesh.ply", "ply\n");
+    expectRefused({"import", "terrain", good("dem.tif"), bad("mesh.ply"), "-o", bad("out.eyt")},
+                  {"mesh.ply", "out.eyt", "`eyrie import mesh`", ".eym"});
+    expectRefused({"import", "terrain", bad("missing.ply"), "-o", bad("out.eyt")}, {"missing.ply"});
 }
 
 TEST_F(BadInput, ScenesThatCannotBeAreRefusedByFileAndField) {

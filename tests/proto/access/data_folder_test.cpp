@@ -115,6 +115,9 @@ TEST_F(Traversal, FilesAreWrittenBelowTheFolderAndNeverThroughALink) {
     const absl::Status missing = folder_->place("none/new.eyt").status();
     EXPECT_TRUE(absl::IsNotFound(missing));
     EXPECT_EQ(missing.message(), "data 'none': No such file or directory");
+    const absl::Status inFile = folder_->place("dem.eyt/new.eyt").status();
+    EXPECT_TRUE(absl::IsNotFound(inFile));
+    EXPECT_EQ(inFile.message(), "data 'dem.eyt': Not a directory");
     EXPECT_TRUE(absl::IsPermissionDenied(folder_->place("two/new.eyt").status()));
     for (const char* name : {"survey", "new.txt", "inside.eym", "dangling", "loop"})
         EXPECT_TRUE(absl::IsFailedPrecondition(folder_->place(name).status())) << name;
