@@ -109,13 +109,13 @@ std::vector<Files> places(const std::string& imported, const std::optional<Files
 absl::Status isNowhere(const std::string& imported, const std::optional<Files>& recorded) {
     if (!recorded)
         return absl::NotFoundError(
-            fmt::format("{}: where its source lies is not known, since {} is not there; name the "
-                        "source's files with --source",
+            fmt::format("{}: where its source lies is not known, since {} is not there; import it "
+                        "again, or name the source's files with --source",
                         imported, sourceRecordName(imported)));
-    return absl::NotFoundError(
-        fmt::format("{}: its source {} is not there, nor beside it; name the source's files with "
-                    "--source",
-                    imported, fmt::join(*recorded, ", ")));
+    return absl::NotFoundError(fmt::format(
+        "{}: its source {} is not there, nor beside it; put it there, or name the source's "
+        "files with --source",
+        imported, fmt::join(*recorded, ", ")));
 }
 
 /// `others` are not it either.

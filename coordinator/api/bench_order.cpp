@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/api/bench_order.h"
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -178,6 +180,25 @@ absl::Status moveInto(const fs::path& made, const BenchOrder& order, WorkFolder&
     return error ? cannotBePlaced(error) : absl::OkStatus();
 }
 
+/// What `eyrie bench` advises, and what of that the caller can do.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kAdvice = {
+    {{", or name the source's files with --source", ""},
+     {", or name what it was with --source", ""},
+     {"--reference-memory", "--import-memory of the server"},
+     {"--reference-frames", "referenceFrames"},
+     {"a smaller --size", "a smaller width and height"}}};
+
+/// What the program says that made `report`, in the caller's terms: where the data folder is nobody
+/// is told.
+absl::Status inCallersTerms(const absl::Status& status, const fs::path& report,
+                            const fs::path& output, const access::DataFolder& folder) {
+    std::string text(status.message());
+    text = named(std::move(text), report.string(), output.string());
+    text = named(std::move(text), (folder.path() / "").string(), "");
+    for (const auto& [advice, possible] : kAdvice) text = named(std::move(text), advice, possible);
+    return {status.code(), text};
+}
+
 }  // namespace
 
 absl::StatusOr<BenchOrder> benchOrderOf(const v1::BenchRequest& request,
@@ -199,8 +220,9 @@ absl::StatusOr<BenchOrder> benchOrderOf(const v1::BenchRequest& request,
     return order;
 }
 
-absl::Status carryOut(const BenchOrder& order, const RunProgram& run,
-                      const Operations::Progress& progress, const std::stop_token& stop) {
+absl::Status carryOut(const BenchOrder& order, const access::DataFolder& folder,
+                      const RunProgram& run, const Operations::Progress& progress,
+                      const std::stop_token& stop) {
     ASSIGN_OR_RETURN(WorkFolder work, WorkFolder::in(order.output.parent_path(), "bench"));
     const fs::path report = work.path() / "report";
     std::error_code error;
@@ -208,7 +230,9 @@ absl::Status carryOut(const BenchOrder& order, const RunProgram& run,
     RETURN_IF_ERROR(write(report / kSceneFile, order.sceneJson, Readers::OwnerAlone));
     if (!order.flightName.empty())
         RETURN_IF_ERROR(write(report / order.flightName, order.flightJson, Readers::Others));
-    const absl::Status end = runToItsEnd(order.arguments, report, run, progress, stop).status();
+    const absl::Status end =
+        inCallersTerms(runToItsEnd(order.arguments, report, run, progress, stop).status(), report,
+                       order.output, folder);
     const bool isWhole =  // the summary is written last
         end.ok() || (order.measuresErrors && !stop.stop_requested() &&
                      fs::exists(report / fileNameOf(v1::REPORT_FILE_SUMMARY), error));

@@ -45,9 +45,11 @@ absl::StatusOr<BenchOrder> benchOrderOf(const v1::BenchRequest& request,
 
 /// Carries it out. The report is made in a folder beside its place, and moved there when it is
 /// whole; that folder goes, whatever happens to the program. Where the place has become another's
-/// by then, that stays. Errors: those of runToItsEnd(), also of one whose report was moved, since
-/// the source is where its pictures do not promise it; those of checkIsReport().
-absl::Status carryOut(const BenchOrder& order, const RunProgram& run,
-                      const Operations::Progress& progress, const std::stop_token& stop);
+/// by then, that stays. Errors: those of runToItsEnd(), in the request's terms, also of one whose
+/// report was moved, since the source is where its pictures do not promise it; those of
+/// checkIsReport().
+absl::Status carryOut(const BenchOrder& order, const access::DataFolder& folder,
+                      const RunProgram& run, const Operations::Progress& progress,
+                      const std::stop_token& stop);
 
 }  // namespace eyrie::api

@@ -102,7 +102,7 @@ absl::StatusOr<v1::Operation> DataDesk::bench(const v1::BenchRequest& request,
                   [this, made = std::move(made)](
                       const Operations::Progress& progress,
                       const std::stop_token& stop) -> absl::StatusOr<Operations::Notes> {
-                      RETURN_IF_ERROR(carryOut(made, programs_.run, progress, stop));
+                      RETURN_IF_ERROR(carryOut(made, *folder_, programs_.run, progress, stop));
                       return Operations::Notes();
                   }});
 }

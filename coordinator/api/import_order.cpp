@@ -148,14 +148,6 @@ absl::Status moveInto(const fs::path& made, const fs::path& place) {
     return absl::OkStatus();
 }
 
-/// `text` in the caller's terms: what was being made has the name that it was to get, and where
-/// the data folder is nobody is told.
-std::string named(std::string text, const std::string& made, const std::string& name) {
-    for (std::size_t at = text.find(made); at != std::string::npos; at = text.find(made, at + 1))
-        text.replace(at, made.size(), name);
-    return text;
-}
-
 /// Of what the program's `--json` says.
 Operations::Notes notesOf(const std::string& output, const std::string& made,
                           const std::string& name) {

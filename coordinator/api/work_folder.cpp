@@ -48,6 +48,13 @@ WorkFolder::~WorkFolder() {
         fs::remove_all(path_, error);
 }
 
+std::string named(std::string text, std::string_view path, std::string_view name) {
+    for (std::size_t at = text.find(path); at != std::string::npos;
+         at = text.find(path, at + name.size()))
+        text.replace(at, path.size(), name);
+    return text;
+}
+
 absl::StatusOr<std::string> runToItsEnd(const std::vector<std::string>& arguments,
                                         const fs::path& folder, const RunProgram& run,
                                         const Operations::Progress& progress,

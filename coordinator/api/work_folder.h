@@ -39,6 +39,9 @@ private:
     bool goes_ = true;
 };
 
+/// `text` in the caller's terms: with `name` wherever it has `path`.
+std::string named(std::string text, std::string_view path, std::string_view name);
+
 /// What `run` of `arguments` in `folder` writes to its standard output, telling what the program's
 /// `--progress-json` says. Errors: those of `run` and LastWords::statusOf; Cancelled after `stop`.
 absl::StatusOr<std::string> runToItsEnd(const std::vector<std::string>& arguments,

@@ -292,6 +292,31 @@ TEST_F(ApiBench, AReportWhoseSuccessorCannotTakeItsPlaceGoesBackThere) {
     EXPECT_THAT(names(), ElementsAre("a.eyt", "one.bench"));
 }
 
+TEST_F(ApiBench, SaysWhatFailedInTheTermsOfTheRequest) {
+    const std::string place = fs::canonical(data()).string();
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {place + "/a.eyt: its source " + place +
+             "/dem.tif is not there, nor beside it; put it there, or name the source's files with "
+             "--source",
+         "a.eyt: its source dem.tif is not there, nor beside it; put it there"},
+        {"m.ply: is not what " + place +
+             "/m.eym was imported from; import it again, or name what it was with --source",
+         "m.ply: is not what m.eym was imported from; import it again"},
+        {"allow more with --reference-memory, or measure fewer --reference-frames, a smaller "
+         "--size or a part of the scene",
+         "allow more with --import-memory of the server, or measure fewer referenceFrames, a "
+         "smaller width and height or a part of the scene"}};
+    for (int i = 0; const auto& [said, told] : cases) {
+        run_ = [&said = said](const fs::path&, const Heard& heard, const std::stop_token&) {
+            heard("eyrie: " + said);
+            return absl::StatusOr<ProgramEnd>(ProgramEnd{false, 2, ""});
+        };
+        const std::string id = fmt::format("case-{}", ++i);
+        EXPECT_EQ(run(id, R"(,"withReference":true)"), v1::OPERATION_STATE_FAILED);
+        EXPECT_EQ(ended(id).problem(), told);
+    }
+}
+
 TEST_F(ApiBench, LeavesNothingOfWhatFailedOrWasCalledOff) {
     run_ = [](const fs::path& folder, const Heard& heard, const std::stop_token& stop) {
         EXPECT_TRUE(writeReport(folder, heard, stop).ok());
