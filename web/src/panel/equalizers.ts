@@ -8,6 +8,8 @@ import type {
   EqualizerView,
 } from "../protocol/configuration";
 import { compoundsOf, readConfiguration, tuneEqualizer } from "../protocol/configuration";
+import type { SessionState } from "../protocol/messages";
+import { RendererCondition } from "../protocol/messages";
 import type { State } from "../state";
 import { byId, make, setText } from "./element";
 
@@ -220,6 +222,17 @@ function isTyping(tree: HTMLElement): boolean {
   );
 }
 
+/** Other layouts may bring other compounds, and so may other renderers to the same layouts. */
+export function sharersOf(session: SessionState | null): string {
+  const { READY, LATE } = RendererCondition;
+  return JSON.stringify([
+    session?.canvases.map(({ layouts }) => layouts),
+    session?.renderers
+      .filter(({ condition }) => condition === READY || condition === LATE)
+      .map(({ id }) => id),
+  ]);
+}
+
 export function showEqualizers(state: State): void {
   const details = make("details", "plots", make("summary", "heading", "Work sharing"));
   details.title = "The compounds of the configuration, and their equalizers; for everybody";
@@ -270,11 +283,13 @@ export function showEqualizers(state: State): void {
   tree.addEventListener("focusout", () => {
     if (isOutdated) void show();
   });
-  // Layouts may bring other compounds; the first picture brings the first.
   let shown = "";
   state.session.watch((session) => {
-    const now = JSON.stringify(session?.canvases.map(({ layouts }) => layouts) ?? []);
-    if (now !== shown && details.open) void show();
+    const now = sharersOf(session);
+    if (now !== shown && details.open) {
+      problem.textContent = "";
+      void show();
+    }
     shown = now;
   });
   byId("equalizers", HTMLElement).append(details);

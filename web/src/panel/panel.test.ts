@@ -5,6 +5,7 @@ import { SessionStateSchema, ViewerPlaceSchema } from "../protocol/gen/eyrie/v1/
 import { RendererCondition } from "../protocol/messages";
 import type { SessionState } from "../protocol/messages";
 import type { Connection, Numbers } from "../state";
+import { sharersOf } from "./equalizers";
 import { count, deviceName, milliseconds, pixels } from "./format";
 import { bannerFor, lossText, messageFor } from "./message";
 import { sentText, triangleText } from "./numbers";
@@ -299,5 +300,25 @@ describe("sentText", () => {
     expect(sentText(sent)).toBe("lossless");
     expect(sentText({ ...sent, isVideo: true })).toBe("H.264");
     expect(sentText({ ...sent, exact: true })).toBe("exact");
+  });
+});
+
+describe("who shares the work", () => {
+  const shared = (layouts: string[], ...renderers: [id: string, condition: RendererCondition][]) =>
+    sharersOf(
+      create(SessionStateSchema, {
+        canvases: [{ layouts }],
+        renderers: renderers.map(([id, condition]) => ({ id, condition })),
+      }),
+    );
+  const { READY, LATE, OPENING, DEAD } = RendererCondition;
+
+  it("is another when a renderer comes or goes, though there are the same layouts", () => {
+    const two = shared(["2D", "DB"], ["a", READY], ["b", READY]);
+    expect(shared(["2D", "DB"], ["a", READY], ["b", READY], ["c", READY])).not.toBe(two);
+    expect(shared(["2D", "DB"], ["a", READY], ["b", DEAD])).not.toBe(two);
+    expect(shared(["2D"], ["a", READY], ["b", READY])).not.toBe(two);
+    expect(shared(["2D", "DB"], ["a", READY], ["b", LATE], ["c", OPENING])).toBe(two);
+    expect(sharersOf(null)).not.toBe(two);
   });
 });
