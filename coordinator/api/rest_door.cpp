@@ -22,6 +22,7 @@
 #include "coordinator/api/rest_request.h"
 #include "coordinator/api/rest_routes.h"
 #include "eyrie/v1/coordinator_service.pb.h"
+#include "fabric/json_text.h"
 #include "fabric/status.h"
 
 namespace eyrie::api {
@@ -54,6 +55,8 @@ std::string jsonOf(const Message& message, bool isSparse, bool isOneLine = false
     std::string text;
     if (!google::protobuf::util::MessageToJsonString(message, &text, options).ok())
         return "{}";
+    if (!isOneLine)
+        fabric::joinNumbers(text);
     return text;
 }
 

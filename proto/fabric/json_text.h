@@ -10,4 +10,8 @@ namespace eyrie::fabric {
 /// become question marks: JSON is UTF-8.
 std::string quotedJson(std::string_view text);
 
+/// Puts each list of numbers alone on one line, of `json` that has a line for each. Strings stay as
+/// they are.
+void joinNumbers(std::string& json);
+
 }  // namespace eyrie::fabric

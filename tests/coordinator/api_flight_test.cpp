@@ -37,6 +37,14 @@ TEST_F(Rest, FlightsAreKept) {
     expectProblem(send("DELETE", "/flights/a-b_1", ""), 404, "NOT_FOUND");
 }
 
+TEST_F(Rest, ListsOfNumbersInAnswersAreOnOneLine) {
+    ASSERT_EQ(
+        send("PUT", "/flights/a", R"({"keys":[{"camera":{"eye":[0,-10.5,3],"target":[0,0,0]}}]})")
+            .status,
+        200);
+    EXPECT_THAT(*get("/flights/a").body, HasSubstr("\n    \"eye\": [0, -10.5, 3],\n"));
+}
+
 TEST_F(Rest, AFlightThatManyWriteIsAlwaysOneOfTheirs) {
     const auto flight = [](int writer) {
         return fmt::format(

@@ -22,5 +22,19 @@ TEST(QuotedJson, IsUtf8WhateverItQuotes) {
     EXPECT_EQ(quotedJson("\xc0\xaf"), "\"??\"") << "too long";
 }
 
+TEST(JoinNumbers, PutsListsOfNumbersOnOneLineAndLeavesTheRest) {
+    const auto joined = [](std::string json) {
+        joinNumbers(json);
+        return json;
+    };
+    EXPECT_EQ(joined("{\n \"eye\": [\n  1,\n  -2.5e-07,\n  3\n ],\n \"up\": []\n}\n"),
+              "{\n \"eye\": [1, -2.5e-07, 3],\n \"up\": []\n}\n");
+    for (const char* same :
+         {"", "[", "[\n 1,\n", "\"", "\"\\", "{\n \"a\": [\n  \"1\",\n  \"2\"\n ]\n}\n",
+          "{\n \"[\\\"\": \"[\\n 1,\\n [ 2 ]\"\n}\n"})
+        EXPECT_EQ(joined(same), same);
+    EXPECT_EQ(joined("[\n [\n  1,\n  2\n ],\n [\n  3\n ]\n]\n"), "[\n [1, 2],\n [3]\n]\n");
+}
+
 }  // namespace
 }  // namespace eyrie::fabric
