@@ -56,6 +56,7 @@ struct Context {
     access::RareWarnings handshakes = {};  ///< that failed
     access::RareWarnings unread = {};      ///< requests that were refused before they were read
     access::RareWarnings seats = {};       ///< that viewers did not get
+    std::size_t longBodies = 0;            ///< of changes, being read and worked on
 };
 
 /// A connection's place, and its viewer's; held until that, too, has ended.

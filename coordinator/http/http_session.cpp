@@ -42,7 +42,17 @@ using boost::asio::ip::tcp;
 using Request = beast::http::request<beast::http::string_body>;
 
 constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
-constexpr std::uint64_t kMaxBodyBytes = 1024 * 1024;
+constexpr std::uint64_t kMiB = 1024 * 1024;
+constexpr std::uint64_t kMaxBodyBytes = kMiB;
+
+/// Of changes by those who may make them, as a flight with all the keys it may have.
+constexpr std::uint64_t kMaxChangeBytes = 8 * kMiB;
+
+/// Bodies above kMaxBodyBytes that are held at once.
+constexpr std::size_t kMaxLongBodies = 16;
+
+/// Of what still comes of a request that has been refused.
+constexpr std::uint64_t kMaxDroppedBytes = 256 * kMiB;
 
 /// How often a client that has sent more than its request is looked at.
 constexpr std::chrono::milliseconds kLookAgain{100};
@@ -106,6 +116,12 @@ bool waitsToGoOn(const Request& header) {
            beast::iequals(header[beast::http::field::expect], "100-continue");
 }
 
+/// Not only looks, and not at what is no call of the API.
+bool isChange(const Asked& asked) {
+    const std::string_view path = pathOf(asked.target);
+    return isApiCall(path) && roleFor(asked.method, path) >= access::Role::Control;
+}
+
 /// What came is no HTTP, as opposed to: nothing more came.
 bool isMalformed(error_code error) {
     namespace http = beast::http;
@@ -129,6 +145,7 @@ public:
     }
 
     ~HttpSession() override {
+        dropLongBody();
         context_.sessions.erase(this);
         context_.sessionEnded();
     }
@@ -187,8 +204,8 @@ private:
     void read() {
         parser_.emplace();
         parser_->header_limit(kMaxHeaderBytes);
-        parser_->body_limit(kMaxBodyBytes);
-        isHead_ = false;          // until it has come; what does not come is told why
+        parser_->body_limit(kMaxChangeBytes);  // until it is known who asks for what
+        isHead_ = false;                       // until it has come; what does not come is told why
         stream_.expires_never();  // it would close the connection, and nobody would be told why
         isReading_ = true;
         patience_.expires_after(context_.options.headerTimeout);
@@ -202,10 +219,45 @@ private:
                 self->count(observe::Direction::In, bytes);
                 if (error || self->parser_->is_done())
                     return self->requestRead(error);
-                if (waitsToGoOn(self->parser_->get()))
-                    return self->goOn();
-                self->readBody();
+                if (self->admitBody())
+                    self->askForBody();
             });
+    }
+
+    /// Whether a body as long as the header says may come; otherwise that is answered.
+    bool admitBody() {
+        parser_->body_limit(kMaxBodyBytes);
+        if (parser_->content_length().value_or(0) <= kMaxBodyBytes)
+            return true;
+        const Asked asked = askedBy(parser_->get());
+        if (!isChange(asked)) {
+            requestRead(beast::http::error::body_limit);
+            return false;
+        }
+        std::optional<Response> refusal = context_.access.answer(asked, context_.frames);
+        if (!refusal && context_.longBodies == kMaxLongBodies)
+            refusal = toResponse(api::busyAnswer());
+        if (refusal) {
+            doneReading();
+            isUnread_ = true;
+            reply(*refusal, false);
+            return false;
+        }
+        parser_->body_limit(kMaxChangeBytes);
+        hasLongBody_ = true;
+        ++context_.longBodies;
+        return true;
+    }
+
+    void dropLongBody() {
+        if (std::exchange(hasLongBody_, false))
+            --context_.longBodies;
+    }
+
+    void askForBody() {
+        if (waitsToGoOn(parser_->get()))
+            return goOn();
+        readBody();
     }
 
     /// Whoever asks: bodies of those who do not wait for it come, too.
@@ -234,17 +286,28 @@ private:
         stream_.cancel();
     }
 
-    void requestRead(error_code error) {
-        namespace http = beast::http;
+    void doneReading() {
         isReading_ = false;
         patience_.cancel();
+        waiting_.end();
+    }
+
+    /// What is longer than any body may be is found out before it is known who asks.
+    std::string tooLong() const {
+        const bool isLongest = parser_->content_length().value_or(0) > kMaxChangeBytes;
+        return fmt::format("the body is longer than {} MiB; make it shorter",
+                           (isLongest ? kMaxChangeBytes : kMaxBodyBytes) / kMiB);
+    }
+
+    void requestRead(error_code error) {
+        namespace http = beast::http;
+        doneReading();
         if (isDropped_)
             return;
-        waiting_.end();
         if (error == http::error::header_limit)
             return refuseUnread(431, "the header is longer than 16 KiB; make it shorter");
         if (error == http::error::body_limit)
-            return refuseUnread(413, "the body is longer than 1 MiB; make it shorter");
+            return refuseUnread(413, tooLong());
         if (isTooSlow_ && (buffer_.size() > 0 || parser_->got_some()))
             return refuseUnread(408, "the request did not come in time; send it at once");
         if (isMalformed(error))
@@ -278,6 +341,7 @@ private:
             spdlog::warn(
                 "a request from {} is answered with {}: {}; more such within a minute are not told",
                 address_, status, why.substr(0, why.find(';')));
+        isUnread_ = true;
         reply(problemResponse(status, why), false);
     }
 
@@ -415,6 +479,7 @@ private:
 
     void reply(const Response& response, bool keepAlive) {
         namespace http = beast::http;
+        dropLongBody();
         context_.telemetry->metrics.refused(response.status);
         reply_ = headersOf(response);
         if (response.status == 405 && reply_.count(http::field::allow) == 0)
@@ -463,10 +528,39 @@ private:
     /// Lets the peer read the reply before the connection goes.
     void finish() {
         if (stream_.isEncrypted())
-            return stream_.asyncShutDown(beast::role_type::server,
-                                         [self = shared_from_this()](error_code) {});
+            return stream_.asyncShutDown(
+                beast::role_type::server,
+                [self = shared_from_this()](error_code) { self->sayNoMore(); });
+        sayNoMore();
+    }
+
+    /// Of a request that was refused unread more may be on its way. A connection that is closed
+    /// before that has come is reset, and the peer may never see the reply.
+    void sayNoMore() {
         error_code ignored;
         stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+        if (!isUnread_ || isTooSlow_ || isEnding_)
+            return;
+        await();
+        patience_.expires_after(context_.options.headerTimeout);
+        patience_.async_wait([weak = weak_from_this()](error_code error) {
+            if (const auto self = weak.lock(); self && !error)
+                self->stream_.close();
+        });
+        buffer_.clear();
+        dropRest(0);
+    }
+
+    /// Until the peer has read the reply and closes, or has sent more than anybody should.
+    void dropRest(std::uint64_t dropped) {
+        stream_.socket().async_read_some(
+            buffer_.prepare(kMaxHeaderBytes),
+            [self = shared_from_this(), dropped](error_code error, std::size_t bytes) {
+                self->count(observe::Direction::In, bytes);
+                if (!error && dropped + bytes < kMaxDroppedBytes)
+                    return self->dropRest(dropped + bytes);
+                self->patience_.cancel();
+            });
     }
 
     const std::string address_;
@@ -487,6 +581,8 @@ private:
     boost::asio::steady_timer patience_;  ///< with a request that is on its way
     bool isReading_ = false;
     bool isTooSlow_ = false;
+    bool isUnread_ = false;  ///< the request was refused before all of it had come
+    bool hasLongBody_ = false;
     boost::asio::steady_timer looksAgain_;  ///< at a client whose call is being done
     boost::asio::steady_timer drained_;     ///< when the server waits no longer for its call
     Slot slot_;

@@ -22,6 +22,7 @@
 #include "coordinator/stream/session_book.h"
 #include "tests/coordinator/fake_frame_source.h"
 #include "tests/service/eventually.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eyrie::http {
 namespace {
@@ -45,7 +46,8 @@ protected:
 
     void start(ServerOptions options = {}) {
         options.port = 0;
-        options.api = &api_.rest();
+        if (options.api == nullptr)
+            options.api = &api_.rest();
         options.sessions = api_.sessions();
         options.writeTimeout = milliseconds(1500);
         server_ = Server::start(options, frames_).value();
@@ -198,6 +200,41 @@ TEST_F(HttpApi, CallsThatAServerCannotWaitForAreToBeMadeAgain) {
     EXPECT_THAT(answer, HasSubstr("Retry-After: "));
     EXPECT_THAT(answer, HasSubstr("Connection: close"));
     EXPECT_THAT(answer, HasSubstr("this server is stopping"));
+}
+
+/// Numbers have as many digits as there are at most.
+TEST_F(HttpApi, AFlightOfAsManyKeysAsItMayHaveCanBePutBackAsItIsGot) {
+    const test::TemporaryFolder folder;
+    api::Api api{{frames_, configuration_, [](fabric::Scene) {},
+                  access::DataFolder::open(folder.path()).value()}};
+    ServerOptions options;
+    options.api = &api.rest();
+    start(options);
+    const auto put = [this](std::string_view flight) {
+        return receive(send(
+            fmt::format("PUT /api/v1/flights/a HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n"
+                        "Content-Type: application/json\r\nContent-Length: {}\r\n\r\n{}",
+                        flight.size(), flight)));
+    };
+    std::string keys;
+    for (int i = 0; i < 10'000; ++i) {
+        const auto number = [i](int n) {
+            return fmt::format("-1.{:05}{:02}8901234567e-100", i, n);
+        };
+        keys +=
+            fmt::format(R"({}{{"seconds":1.{:05}78901234567e-100,"camera":{{"eye":[{},{},{}],)"
+                        R"("target":[{},{},-1.2345678901234567],"up":[{},1.2345678901234567,{}],)"
+                        R"("fovyDegrees":12.345678901234567}}}})",
+                        i == 0 ? "" : ",", i, number(1), number(2), number(3), number(4), number(5),
+                        number(6), number(7));
+    }
+    ASSERT_THAT(put(fmt::format(R"({{"keys":[{}]}})", keys)), StartsWith("HTTP/1.1 200"));
+    const std::string got = ask("GET /api/v1/flights/a");
+    ASSERT_THAT(got.substr(0, 20), StartsWith("HTTP/1.1 200"));
+    const std::string flight = got.substr(got.find("\r\n\r\n") + 4);
+    EXPECT_LT(keys.size(), flight.size());
+    EXPECT_THAT(put(flight).substr(0, 20), StartsWith("HTTP/1.1 200"));
+    server_->stop();  // before its API goes
 }
 
 /// Reads until `text` has come; what has come so far.

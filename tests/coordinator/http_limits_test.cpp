@@ -177,6 +177,75 @@ TEST_F(HttpAccess, WhatIsTooLargeIsRefusedBeforeItIsRead) {
     EXPECT_EQ(statusOf(request("GET", "/healthz")), 200);
 }
 
+/// As Python's urllib does, which then finds out whether there is an answer.
+TEST_F(HttpAccess, WhoSendsAllOfABodyThatIsTooLongFirstReadsThatItIs) {
+    start({}, false);
+    tcp::socket socket = connect();
+    const std::string body(50'000'000, ' ');
+    asio::write(socket, asio::buffer(fmt::format("POST /login HTTP/1.1\r\nHost: localhost\r\n"
+                                                 "Content-Length: {}\r\n\r\n",
+                                                 body.size())));
+    error_code error;
+    EXPECT_EQ(asio::write(socket, asio::buffer(body), error), body.size()) << error.message();
+    EXPECT_THAT(answerOn(socket), testing::AllOf(testing::StartsWith("HTTP/1.1 413"),
+                                                 HasSubstr("longer than 8 MiB")));
+}
+
+TEST_F(HttpAccess, WhatWouldStillComeOfARefusedRequestIsNotWaitedForForEver) {
+    ServerOptions options;
+    options.headerTimeout = milliseconds(500);
+    start(options, false);
+    tcp::socket socket = connect();
+    asio::write(socket, asio::buffer(std::string("POST /login HTTP/1.1\r\nHost: localhost\r\n"
+                                                 "Content-Length: 2000000\r\n\r\n")));
+    EXPECT_THAT(answerOn(socket), testing::StartsWith("HTTP/1.1 413"));
+    error_code error;
+    const auto end = std::chrono::steady_clock::now() + seconds(20);
+    while (!error && std::chrono::steady_clock::now() < end) {
+        asio::write(socket, asio::buffer(std::string(" ")), error);
+        std::this_thread::sleep_for(milliseconds(20));
+    }
+    EXPECT_TRUE(error) << "it is still connected";
+}
+
+TEST_F(HttpAccess, OnlyWhoMayMakeAChangeMaySayItAtLength) {
+    start();
+    const auto put = [this](const char* token, std::size_t length) {
+        return statusOf(request("PUT", "/api/v1/flights/a",
+                                fmt::format("{}Content-Length: {}\r\n", bearer(token), length)) +
+                        std::string(length, ' '));
+    };
+    EXPECT_EQ(put(kViewToken, 2'000'000), 403);
+    EXPECT_EQ(put("wrong-0123456789abcdef0123456789", 2'000'000), 401);
+    EXPECT_EQ(put(kControlToken, 2'000'000), 405) << "it was read, by a server without API";
+    EXPECT_EQ(put(kAdminToken, 8 * 1024 * 1024), 405);
+    EXPECT_EQ(put(kAdminToken, 8 * 1024 * 1024 + 1), 413);
+    EXPECT_EQ(statusOf(request("POST", "/api/v1/profile",
+                               bearer(kAdminToken) + "Content-Length: 2000000\r\n")),
+              413)
+        << "no change";
+}
+
+TEST_F(HttpAccess, FewLongBodiesAreHeldAtOnce) {
+    start({}, false);
+    const std::string header = request("PUT", "/api/v1/scene", "Content-Length: 2000000\r\n");
+    const std::string whole = header + std::string(2'000'000, ' ');
+    std::deque<tcp::socket> slow;
+    for (int i = 0; i < 16; ++i) {
+        slow.push_back(connect());
+        asio::write(slow.back(), asio::buffer(header));
+    }
+    const auto end = std::chrono::steady_clock::now() + seconds(8);
+    int status = 0;
+    while (status != 503 && std::chrono::steady_clock::now() < end) status = statusOf(whole);
+    EXPECT_EQ(status, 503);
+    EXPECT_EQ(statusOf(request("PUT", "/api/v1/scene", "Content-Length: 2\r\n") + "{}"), 405);
+    slow.clear();
+    while (status == 503 && std::chrono::steady_clock::now() < end + seconds(20))
+        status = statusOf(whole);
+    EXPECT_EQ(status, 405) << "there is room again";
+}
+
 TEST_F(HttpAccess, WhoWaitsToSendABodyIsToldToGoOn) {
     start({}, false);
     tcp::socket socket = connect();

@@ -58,6 +58,14 @@ protected:
     test::Authority authority_{"the authority"};
 };
 
+TEST_F(Https, WhoSendsAllOfABodyThatIsTooLongFirstReadsThatItIs) {
+    start();
+    const std::string answer = ask(
+        request("POST", "/login", "Content-Length: 20000000\r\n") + std::string(20'000'000, ' '),
+        authority_);
+    EXPECT_THAT(answer.substr(0, 12), HasSubstr("HTTP/1.1 413"));
+}
+
 TEST_F(Https, ServesWhoBelievesItsAuthorityAndNobodyInTheClear) {
     start();
     EXPECT_TRUE(server_->url().starts_with("https://"));
