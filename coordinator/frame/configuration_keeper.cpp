@@ -174,7 +174,9 @@ void ConfigurationKeeper::tell() {
 absl::Status ConfigurationKeeper::configure(const SwitchLayout& change) {
     if (!active_)
         return absl::FailedPreconditionError(
-            "there is no renderer yet, and so no configuration that could be switched");
+            "no renderer is ready yet, and so there is no configuration that could be switched; "
+            "start "
+            "one, or wait until it has opened the scene");
     RETURN_IF_ERROR(active_->switchLayout(change.canvas, change.layout));
     noteChoice();
     keep();
@@ -186,7 +188,9 @@ absl::Status ConfigurationKeeper::change(
     const std::function<absl::Status(ActiveConfiguration&)>& use) {
     if (!active_)
         return absl::FailedPreconditionError(
-            "there is no renderer yet, and so no configuration; start one");
+            "no renderer is ready yet, and so there is no configuration; start one, or wait until "
+            "it "
+            "has opened the scene");
     const config::ConfigurationState before = active_->state();
     const std::uint64_t choices = active_->layoutChoices();
     RETURN_IF_ERROR(use(*active_));

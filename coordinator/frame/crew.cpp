@@ -112,7 +112,10 @@ void Crew::noteFailure(const std::string& id, const absl::Status& status) {
         registry_.markDead(id, textOf(status), Registry::Clock::now());
 }
 
-bool Crew::isReady(const Seat& seat) const { return seat.opened == revision_ && !seat.drains; }
+/// There is nothing to open in a scene without objects.
+bool Crew::isReady(const Seat& seat) const {
+    return (seat.opened == revision_ || scene_->objects.empty()) && !seat.drains;
+}
 
 bool Crew::anyOpened() const {
     return std::any_of(seats_.begin(), seats_.end(),
@@ -217,10 +220,10 @@ void Crew::retireMissing(const std::vector<Registry::Entry>& entries) {
 
 /// It leaves when it has done what it was given. Opening a scene is not worth waiting for.
 void Crew::drain(Seat& seat) {
-    const bool wasReady = isReady(seat);
+    const bool mayBeOpening = seat.opened != revision_;
     seat.drains = true;
     seat.member->leave([this, id = seat.member->id()] { registry_.remove(id); });
-    if (!wasReady)
+    if (mayBeOpening)
         seat.member->retire();
 }
 

@@ -106,6 +106,30 @@ TEST_P(FrameScenes, TheStatusHasTheLayoutsOfTheRenderersThereAre) {
     pipeline_.unsubscribe(handle);
 }
 
+TEST_P(FrameScenes, RenderersHaveAConfigurationBeforeThereIsAScene) {
+    EXPECT_TRUE(absl::IsFailedPrecondition(
+        pipeline_.withConfiguration([](ActiveConfiguration&) { return absl::OkStatus(); })));
+    addRenderer();
+    addRenderer();
+    const auto nodes = [&] {
+        std::size_t count = 0;
+        EXPECT_TRUE(pipeline_
+                        .withConfiguration([&](ActiveConfiguration& active) {
+                            count = active.written().nodes.size();
+                            return absl::OkStatus();
+                        })
+                        .ok());
+        return count;
+    };
+    EXPECT_TRUE(eventually([&] { return nodes() == 2; }));
+    EXPECT_TRUE(pipeline_.configure({"0", "Simple"}).ok());
+    EXPECT_FALSE(pipeline_.renderFrame(request()).ok()) << "there is nothing to draw";
+    pipeline_.setScene(sceneNamed("first"));
+    EXPECT_TRUE(eventually([&] { return pipeline_.status().problem.empty(); }));
+    EXPECT_EQ(nodes(), 2U);
+    EXPECT_EQ(pipeline_.status().canvases.front().layout, "Simple");
+}
+
 TEST_P(FrameScenes, ANewSceneIsOpenedByAll) {
     const auto renderers = openWith(2);
     pipeline_.setScene(sceneNamed("second"));
