@@ -175,8 +175,7 @@ absl::Status ConfigurationKeeper::configure(const SwitchLayout& change) {
     if (!active_)
         return absl::FailedPreconditionError(
             "no renderer is ready yet, and so there is no configuration that could be switched; "
-            "start "
-            "one, or wait until it has opened the scene");
+            "start one, or wait until it has opened the scene");
     RETURN_IF_ERROR(active_->switchLayout(change.canvas, change.layout));
     noteChoice();
     keep();
@@ -189,8 +188,7 @@ absl::Status ConfigurationKeeper::change(
     if (!active_)
         return absl::FailedPreconditionError(
             "no renderer is ready yet, and so there is no configuration; start one, or wait until "
-            "it "
-            "has opened the scene");
+            "it has opened the scene");
     const config::ConfigurationState before = active_->state();
     const std::uint64_t choices = active_->layoutChoices();
     RETURN_IF_ERROR(use(*active_));
