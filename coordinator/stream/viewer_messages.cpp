@@ -74,7 +74,7 @@ v1::ObjectState toMessage(fabric::ObjectKind kind, const fabric::ObjectInfo& inf
 fabric::Box heightsOf(const fabric::GroundGrid& grid) {
     const fabric::Vec3 up(grid.worldFromGrid[2]);
     fabric::Box heights;
-    heights.grow(up * static_cast<double>(grid.lowest));
+    heights.grow(up * static_cast<double>(*std::ranges::min_element(grid.lowest)));
     heights.grow(up * static_cast<double>(*std::ranges::max_element(grid.highest)));
     return heights;
 }

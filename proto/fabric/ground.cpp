@@ -32,50 +32,53 @@ Place placeAt(double coordinate, int cells) {
             std::clamp(1 - 4 * toBorder, 0.0, 1.0)};
 }
 
-double insideCeiling(const GroundGrid& grid, double u, double v) {
+double insideCeiling(const GroundGrid& grid, double u, double v, double scale) {
+    // Upside down the lowest is on top.
+    const bool isUpsideDown = scale < 0;
+    const std::vector<float>& heights = isUpsideDown ? grid.lowest : grid.highest;
     const Place x = placeAt(u, grid.columns);
     const Place y = placeAt(v, grid.rows);
-    const auto highest = [&](int column, int row) -> double {
-        return grid.highest[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
-                            static_cast<std::size_t>(column)];
+    const auto top = [&](int column, int row) -> double {
+        const double height =
+            heights[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
+                    static_cast<std::size_t>(column)];
+        return isUpsideDown ? -height : height;
     };
-    const double own = highest(x.cell, y.cell);
-    const double besideX = std::max(own, highest(x.neighbour, y.cell));
-    const double besideY = std::max(own, highest(x.cell, y.neighbour));
-    const double corner = std::max({besideX, besideY, highest(x.neighbour, y.neighbour)});
+    const double own = top(x.cell, y.cell);
+    const double besideX = std::max(own, top(x.neighbour, y.cell));
+    const double besideY = std::max(own, top(x.cell, y.neighbour));
+    const double corner = std::max({besideX, besideY, top(x.neighbour, y.neighbour)});
     const double low = own + (besideX - own) * x.share;
     const double high = besideY + (corner - besideY) * x.share;
-    return low + (high - low) * y.share;
+    return std::abs(scale) * (low + (high - low) * y.share);
 }
 
 /// By how much the eye is to be lifted, world axes; 0 0 0 where it is fine.
 Vec3 lift(const Vec3& eye, const GroundGrid& grid, double exaggeration) {
-    const Mat4 worldFromGrid = exaggerated(grid.worldFromGrid, exaggeration);
-    const Vec3 place = glm::inverse(Mat3(worldFromGrid)) * (eye - Vec3(worldFromGrid[3]));
+    const Vec3 place = glm::inverse(Mat3(grid.worldFromGrid)) * (eye - Vec3(grid.worldFromGrid[3]));
     const Vec3 up(grid.worldFromGrid[2]);
     const double worldPerMetre = glm::length(up);
-    const double flattened = glm::length(Vec3(worldFromGrid[2])) / worldPerMetre;
-    // Upside down the lowest is on top.
-    const double ceiling =
-        exaggeration < 0 ? -flattened * grid.lowest : flattened * ceilingAt(grid, place.x, place.y);
-    const double height = place.z * (exaggeration < 0 ? -flattened : flattened);
-    const double missing = (ceiling - height) * worldPerMetre + kGroundClearanceMetres;
+    const Vec3 drawnUp(exaggerated(grid.worldFromGrid, exaggeration)[2]);
+    const double scale = glm::dot(drawnUp, up) / glm::dot(up, up);
+    const double ceiling = ceilingAt(grid, place.x, place.y, scale);
+    const double missing = (ceiling - place.z) * worldPerMetre + kGroundClearanceMetres;
     return missing > kSlackMetres ? up * (missing / worldPerMetre) : Vec3(0);
 }
 
 }  // namespace
 
-double ceilingAt(const GroundGrid& grid, double u, double v) {
+double ceilingAt(const GroundGrid& grid, double u, double v, double scale) {
     const double insideU = std::clamp(u, 0.0, static_cast<double>(grid.columns));
     const double insideV = std::clamp(v, 0.0, static_cast<double>(grid.rows));
-    const double inside = insideCeiling(grid, insideU, insideV);
+    const double inside = insideCeiling(grid, insideU, insideV, scale);
     const double beyond = std::hypot(u - insideU, v - insideV);
     if (beyond == 0)
         return inside;
     const auto unit = [&](int axis) { return glm::length(Vec3(grid.worldFromGrid[axis])); };
     const double cellMetres = std::min(unit(0), unit(1)) / unit(2);
-    const double relief = *std::max_element(grid.highest.begin(), grid.highest.end()) - grid.lowest;
-    return inside - beyond * std::max(cellMetres, relief);
+    const double relief = *std::max_element(grid.highest.begin(), grid.highest.end()) -
+                          *std::min_element(grid.lowest.begin(), grid.lowest.end());
+    return inside - beyond * std::max(cellMetres, std::abs(scale) * relief);
 }
 
 Camera aboveGround(const Camera& camera, const std::vector<GroundGrid>& ground, const Look& look) {

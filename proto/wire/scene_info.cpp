@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,33 +33,28 @@ v1::GroundGrid toMessage(const fabric::GroundGrid& grid) {
     message.set_columns(grid.columns);
     message.set_rows(grid.rows);
     message.mutable_highest()->Add(grid.highest.begin(), grid.highest.end());
-    message.set_lowest(grid.lowest);
+    message.mutable_lowest()->Add(grid.lowest.begin(), grid.lowest.end());
     message.set_object(grid.object);
     return message;
 }
 
-absl::Status checkCells(const v1::GroundGrid& message) {
+absl::Status checkHeights(const google::protobuf::RepeatedField<float>& heights,
+                          const v1::GroundGrid& message, std::string_view field) {
     const std::int64_t cells = std::int64_t{message.columns()} * message.rows();
     if (message.columns() < 1 || message.rows() < 1 || cells > fabric::kMaxGroundCells ||
-        cells != message.highest_size())
+        cells != heights.size())
         return absl::InvalidArgumentError(fmt::format(
-            "ground.highest has {} numbers for {} x {} cells; it must have one a cell, and at most "
-            "{}",
-            message.highest_size(), message.columns(), message.rows(), fabric::kMaxGroundCells));
-    const auto isHeight = [&](float height) {
-        return std::isfinite(height) && height >= message.lowest();
-    };
-    if (!std::isfinite(message.lowest()) ||
-        !std::all_of(message.highest().begin(), message.highest().end(), isHeight))
-        return absl::InvalidArgumentError(
-            fmt::format("ground.highest has a height that is not finite or below ground.lowest, {}",
-                        message.lowest()));
+            "{} has {} numbers for {} x {} cells; it must have one a cell, and at most {}", field,
+            heights.size(), message.columns(), message.rows(), fabric::kMaxGroundCells));
+    if (!std::all_of(heights.begin(), heights.end(), [](float h) { return std::isfinite(h); }))
+        return absl::InvalidArgumentError(fmt::format("{} has a height that is not finite", field));
     return absl::OkStatus();
 }
 
 absl::StatusOr<fabric::GroundGrid> fromMessage(const v1::GroundGrid& message) {
     RETURN_IF_ERROR(checkNumbers(message.world_from_grid(), 16, "ground.world_from_grid"));
-    RETURN_IF_ERROR(checkCells(message));
+    RETURN_IF_ERROR(checkHeights(message.highest(), message, "ground.highest"));
+    RETURN_IF_ERROR(checkHeights(message.lowest(), message, "ground.lowest"));
     fabric::GroundGrid grid;
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column)
@@ -73,7 +69,7 @@ absl::StatusOr<fabric::GroundGrid> fromMessage(const v1::GroundGrid& message) {
     grid.columns = message.columns();
     grid.rows = message.rows();
     grid.highest.assign(message.highest().begin(), message.highest().end());
-    grid.lowest = message.lowest();
+    grid.lowest.assign(message.lowest().begin(), message.lowest().end());
     grid.object = message.object();
     return grid;
 }

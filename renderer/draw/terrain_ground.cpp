@@ -50,13 +50,15 @@ fabric::GroundGrid groundOf(const terrain::EytIndex& index, const fabric::Mat4& 
     grid.worldFromGrid = worldFromTiles(index, worldFromObject, level);
     grid.columns = quadtree.tilesX(level);
     grid.rows = quadtree.tilesY(level);
-    grid.lowest = index.tile(quadtree.top()).minHeightMetres;
+    const terrain::TileRecord& whole = index.tile(quadtree.top());
     for (int y = 0; y < grid.rows; ++y)
         for (int x = 0; x < grid.columns; ++x) {
             const terrain::TileId tile{level, x, y};
-            grid.highest.push_back(hasGround(index, tile)
-                                       ? std::max(index.tile(tile).maxHeightMetres, grid.lowest)
-                                       : grid.lowest);
+            const bool isGround = hasGround(index, tile);
+            grid.highest.push_back(isGround ? index.tile(tile).maxHeightMetres
+                                            : whole.minHeightMetres);
+            grid.lowest.push_back(isGround ? index.tile(tile).minHeightMetres
+                                           : whole.maxHeightMetres);
         }
     return grid;
 }

@@ -6,8 +6,8 @@
 
 namespace eyrie::draw {
 
-/// How high a terrain reaches, from its index alone: a cell is a tile of the finest level of which
-/// at most `maxCells` (1 or more) cover the terrain. `worldFromObject` is not exaggerated.
+/// How high and low a terrain reaches, from its index alone: a cell is a tile of the finest level
+/// of which at most `maxCells` (1 or more) cover the terrain. `worldFromObject` is not exaggerated.
 fabric::GroundGrid groundOf(const terrain::EytIndex& index, const fabric::Mat4& worldFromObject,
                             int maxCells);
 

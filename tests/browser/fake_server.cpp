@@ -212,6 +212,7 @@ coordinator::Status statusWith(bool hasRenderer, bool hasWall, bool isSoftware) 
     plain.worldFromGrid[3] = {-1000, -1000, 0, 1};
     plain.columns = plain.rows = 1;
     plain.highest = {0};
+    plain.lowest = {0};
     status.sceneInfo.ground = std::make_shared<const std::vector<fabric::GroundGrid>>(1, plain);
     if (hasWall)
         status.canvases = {{.name = "wall",

@@ -32,6 +32,7 @@ coordinator::Status plateauStatus() {
     plateau.worldFromGrid[3] = {-100, -100, 0, 1};
     plateau.columns = plateau.rows = 1;
     plateau.highest = {100};
+    plateau.lowest = {0};
     coordinator::Status status = coordinator::readyStatus();
     status.sceneInfo.ground = std::make_shared<const std::vector<fabric::GroundGrid>>(1, plateau);
     return status;
@@ -42,7 +43,7 @@ TEST(SessionState, SaysWhichHeightsAreExaggerated) {
     EXPECT_EQ(sessionState(status, "").objects(0).heights().max().z(), 100);
     fabric::GroundGrid turned = status.sceneInfo.ground->front();
     turned.worldFromGrid[2] = {0, -2, 0, 0};
-    turned.lowest = 30;
+    turned.lowest = {30};
     status.sceneInfo.ground = std::make_shared<const std::vector<fabric::GroundGrid>>(1, turned);
     const v1::Box heights = sessionState(status, "").objects(0).heights();
     EXPECT_EQ(heights.min().y(), -200);

@@ -6,7 +6,7 @@
 namespace eyrie::draw {
 namespace {
 
-TEST(TerrainGround, IsAsHighAsWhatOnlyFinerLevelsDraw) {
+TEST(TerrainGround, IsAsHighAndLowAsWhatOnlyFinerLevelsDraw) {
     terrain::EytIndex index;
     index.quadtree = terrain::Quadtree(257, 257);
     index.tiles.resize(index.quadtree.tileCount());
@@ -22,6 +22,7 @@ TEST(TerrainGround, IsAsHighAsWhatOnlyFinerLevelsDraw) {
     const fabric::GroundGrid grid = groundOf(index, fabric::Mat4(1.0), 4);
     ASSERT_EQ(grid.columns * grid.rows, 4);
     EXPECT_THAT(grid.highest, testing::ElementsAre(300, -40, -40, -40));
+    EXPECT_THAT(grid.lowest, testing::ElementsAre(0, 300, 300, 300));
 }
 
 }  // namespace

@@ -177,13 +177,13 @@ fabric::SceneInfo infoWithGround() {
     grid.columns = 3;
     grid.rows = 2;
     grid.highest = {1, 2, 3, 4, 5, 6};
-    grid.lowest = -7;
+    grid.lowest = {-1, -2, 3, -4, -5, -7};
     fabric::SceneInfo info{{{0, 0, 0}, {1, 1, 1}}, 1, 2};
     info.ground = std::make_shared<const std::vector<fabric::GroundGrid>>(2, grid);
     return info;
 }
 
-TEST(WireSceneInfo, KeepsHowHighTheGroundIs) {
+TEST(WireSceneInfo, KeepsHowHighAndHowLowTheGroundIs) {
     const fabric::SceneInfo info = infoWithGround();
     EXPECT_EQ(fromMessage(toMessage(info)).value(), info);
     EXPECT_FALSE(fromMessage(toMessage(info)).value() == fabric::SceneInfo{});
@@ -202,8 +202,11 @@ TEST(WireSceneInfo, GroundThatCannotBeIsRefused) {
     EXPECT_THAT(refusal([](auto& grid) { grid.set_rows(-2), grid.set_columns(-3); }),
                 HasSubstr("ground.highest has 6"));
     EXPECT_THAT(refusal([](auto& grid) { grid.set_highest(5, kNan); }),
-                HasSubstr("not finite or below"));
-    EXPECT_THAT(refusal([](auto& grid) { grid.set_lowest(2); }), HasSubstr("below ground.lowest"));
+                HasSubstr("ground.highest has a height that is not finite"));
+    EXPECT_THAT(refusal([](auto& grid) { grid.set_lowest(0, -kNan); }),
+                HasSubstr("ground.lowest has a height that is not finite"));
+    EXPECT_THAT(refusal([](auto& grid) { grid.mutable_lowest()->RemoveLast(); }),
+                HasSubstr("ground.lowest has 5"));
     EXPECT_THAT(
         refusal([](auto& grid) { grid.set_world_from_grid(0, 0), grid.set_world_from_grid(1, 0); }),
         HasSubstr("ground.world_from_grid is singular"));
