@@ -26,7 +26,7 @@ bool isInOrder(const v1::ChannelTimes& times) {
 }  // namespace
 
 ReportedRenderer::ReportedRenderer(const std::string& address, observe::SharedTelemetry telemetry)
-    : name_(observe::rendererName(address)), telemetry_(std::move(telemetry)) {}
+    : address_(address), name_(observe::rendererName(address)), telemetry_(std::move(telemetry)) {}
 
 std::optional<observe::ClockMap::Offset> ReportedRenderer::note(const observe::Exchange& exchange) {
     const std::lock_guard lock(mutex_);
@@ -34,7 +34,7 @@ std::optional<observe::ClockMap::Offset> ReportedRenderer::note(const observe::E
 }
 
 void ReportedRenderer::holds(const v1::RendererMemory& memory) const {
-    telemetry_->metrics.rendererHolds(name_, memory.device_bytes(), memory.host_bytes());
+    telemetry_->metrics.rendererHolds(address_, memory.device_bytes(), memory.host_bytes());
 }
 
 ChannelReport::ChannelReport(ReportedRenderer& renderer, std::uint64_t frame)

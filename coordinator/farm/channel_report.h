@@ -33,7 +33,8 @@ public:
     void holds(const v1::RendererMemory& memory) const;
 
 private:
-    const std::string name_;
+    const std::string address_;
+    const std::string name_;  ///< in traces
     const observe::SharedTelemetry telemetry_;
     std::mutex mutex_;  ///< guards clock_
     observe::ClockMap clock_;

@@ -19,11 +19,11 @@ Response metricsResponse(observe::Telemetry& telemetry, const access::Gate* gate
          {RendererCondition::Ready, RendererCondition::Opening, RendererCondition::Late,
           RendererCondition::Draining, RendererCondition::Dead, RendererCondition::Refused})
         conditions[std::string(nameOf(condition))] = 0;
-    std::map<std::string, bool> present;
+    std::map<std::string, std::string> ids;
     for (const coordinator::RendererStatus& renderer : frames.status().renderers) {
         ++conditions[std::string(nameOf(renderer.condition))];
         if (renderer.isAlive())
-            present[observe::rendererName(renderer.address)] = true;
+            ids[renderer.address] = renderer.id;
     }
     if (gate != nullptr)
         telemetry.metrics.turnedAway(access::Door::Http, gate->refusals(access::Door::Http));
@@ -33,8 +33,7 @@ Response metricsResponse(observe::Telemetry& telemetry, const access::Gate* gate
     telemetry.metrics.turnedAway(access::Door::Grpc, grpc);
     Response response;
     response.contentType = observe::Metrics::kContentType;
-    response.body =
-        std::make_shared<const std::string>(telemetry.metrics.text(conditions, present));
+    response.body = std::make_shared<const std::string>(telemetry.metrics.text(conditions, ids));
     return response;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -214,23 +215,19 @@ public:
     }
     void handshakeFailed() { handshakes_.Increment(); }
 
-    void rendererHolds(const std::string& name, std::uint64_t deviceBytes,
+    void rendererHolds(const std::string& address, std::uint64_t deviceBytes,
                        std::uint64_t hostBytes) {
         const std::lock_guard lock(heldMutex_);
-        Held& held = held_[name];
-        if (held.device == nullptr) {
-            held.device = &memory_.Add({{"renderer", name}, {"memory", "device"}});
-            held.host = &memory_.Add({{"renderer", name}, {"memory", "host"}});
-        }
-        held.device->Set(static_cast<double>(deviceBytes));
-        held.host->Set(static_cast<double>(hostBytes));
+        Held& held = held_[address];
+        held.deviceBytes = deviceBytes;
+        held.hostBytes = hostBytes;
     }
 
     std::string text(const std::map<std::string, int>& renderers,
-                     const std::map<std::string, bool>& present) {
+                     const std::map<std::string, std::string>& ids) {
         for (const auto& [condition, count] : renderers)
             renderers_.Add({{"condition", condition}}).Set(count);
-        forgetAbsent(present);
+        tellHeld(ids);
         const ProcessFigures figures = processFigures();
         cpu_.Increment(std::max(0.0, figures.cpuSeconds - cpu_.Value()));
         resident_.Set(static_cast<double>(figures.residentBytes));
@@ -242,6 +239,9 @@ public:
 
 private:
     struct Held {
+        std::uint64_t deviceBytes = 0;
+        std::uint64_t hostBytes = 0;
+        std::string id = {};  ///< that it is told under; empty: it is not yet
         Gauge* device = nullptr;
         Gauge* host = nullptr;
     };
@@ -276,15 +276,32 @@ private:
                  static_cast<double>(count));
     }
 
-    void forgetAbsent(const std::map<std::string, bool>& present) {
+    void tellHeld(const std::map<std::string, std::string>& ids) {
         const std::lock_guard lock(heldMutex_);
-        std::erase_if(held_, [&](const auto& entry) {
-            if (present.contains(entry.first))
-                return false;
-            memory_.Remove(entry.second.device);
-            memory_.Remove(entry.second.host);
-            return true;
-        });
+        for (auto at = held_.begin(); at != held_.end();) {
+            const auto found = ids.find(at->first);
+            tell(at->second, found != ids.end() ? found->second : "");
+            at = found != ids.end() ? std::next(at) : held_.erase(at);
+        }
+    }
+
+    /// Under `id`; under none where that is empty.
+    void tell(Held& held, const std::string& id) {
+        if (held.id != id) {
+            if (!held.id.empty()) {
+                memory_.Remove(held.device);
+                memory_.Remove(held.host);
+            }
+            held.id = id;
+            if (!id.empty()) {
+                held.device = &memory_.Add({{"renderer", id}, {"memory", "device"}});
+                held.host = &memory_.Add({{"renderer", id}, {"memory", "host"}});
+            }
+        }
+        if (id.empty())
+            return;
+        held.device->Set(static_cast<double>(held.deviceBytes));
+        held.host->Set(static_cast<double>(held.hostBytes));
     }
 
     prometheus::Registry registry_;
@@ -369,8 +386,8 @@ private:
     Gauge& threads_ = gauge("process_threads", "Threads of this process.");
     Gauge& startTime_ = gauge("process_start_time_seconds", "When this process began, since 1970.");
 
-    std::mutex heldMutex_;  ///< guards held_
-    std::map<std::string, Held> held_;
+    std::mutex heldMutex_;              ///< guards held_
+    std::map<std::string, Held> held_;  ///< by address
 };
 
 Metrics::Metrics() : impl_(std::make_unique<Impl>()) {}
@@ -398,21 +415,13 @@ void Metrics::turnedAwayByRenderer(const access::Refusals& since) {
     impl_->turnedAwayByRenderer(since);
 }
 void Metrics::handshakeFailed() { impl_->handshakeFailed(); }
-void Metrics::rendererHolds(const std::string& name, std::uint64_t deviceBytes,
+void Metrics::rendererHolds(const std::string& address, std::uint64_t deviceBytes,
                             std::uint64_t hostBytes) {
-    impl_->rendererHolds(name, deviceBytes, hostBytes);
+    impl_->rendererHolds(address, deviceBytes, hostBytes);
 }
 std::string Metrics::text(const std::map<std::string, int>& renderers,
-                          const std::map<std::string, bool>& present) {
-    return impl_->text(renderers, present);
-}
-
-std::string rendererName(const std::string& address) {
-    constexpr std::string_view kUnix = "unix:";
-    if (!address.starts_with(kUnix))
-        return address;
-    const std::size_t slash = address.rfind('/');
-    return address.substr(slash == std::string::npos ? kUnix.size() : slash + 1);
+                          const std::map<std::string, std::string>& ids) {
+    return impl_->text(renderers, ids);
 }
 
 }  // namespace eyrie::observe

@@ -78,13 +78,14 @@ public:
     /// What a renderer has turned away at its own door since it last said so.
     void turnedAwayByRenderer(const access::Refusals& since);
     void handshakeFailed();  ///< somebody who wanted an encrypted connection, by HTTPS
-    /// What a renderer holds for its scene.
-    void rendererHolds(const std::string& name, std::uint64_t deviceBytes, std::uint64_t hostBytes);
+    /// What the renderer at `address` holds for its scene.
+    void rendererHolds(const std::string& address, std::uint64_t deviceBytes,
+                       std::uint64_t hostBytes);
 
-    /// In the text form that Prometheus scrapes. `renderers`: how many are in each condition. What
-    /// renderers hold that are not among `present` is forgotten.
+    /// In the text form that Prometheus scrapes. `renderers`: how many are in each condition.
+    /// `ids`: of those that are there, by address, as they are told; what others hold is forgotten.
     std::string text(const std::map<std::string, int>& renderers,
-                     const std::map<std::string, bool>& present);
+                     const std::map<std::string, std::string>& ids);
 
     static constexpr std::string_view kContentType = "text/plain; version=0.0.4; charset=utf-8";
 
@@ -92,9 +93,5 @@ private:
     class Impl;
     std::unique_ptr<Impl> impl_;
 };
-
-/// A short name for the renderer at `address`: "renderer-0-1" of a Unix socket of that name, else
-/// the address.
-std::string rendererName(const std::string& address);
 
 }  // namespace eyrie::observe

@@ -85,6 +85,14 @@ Clock::time_point beginOf(const std::deque<Span>& spans, std::size_t frames) {
 
 }  // namespace
 
+std::string rendererName(const std::string& address) {
+    constexpr std::string_view kUnix = "unix:";
+    if (!address.starts_with(kUnix))
+        return address;
+    const std::size_t slash = address.rfind('/');
+    return address.substr(slash == std::string::npos ? kUnix.size() : slash + 1);
+}
+
 void TraceBook::add(Span span) {
     if (span.end < span.begin)
         return;

@@ -13,6 +13,10 @@ namespace eyrie::observe {
 
 using Clock = std::chrono::steady_clock;
 
+/// A short name for the renderer at `address`: "renderer-0-1" of a Unix socket of that name, else
+/// the address.
+std::string rendererName(const std::string& address);
+
 /// A stretch of work. Those of one thread of a process lie beside or within each other.
 struct Span {
     std::string process;  ///< "coordinator", or a renderer's name

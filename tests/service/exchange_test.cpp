@@ -227,13 +227,12 @@ TEST_F(ExchangeTest, WhatComesOfAProgramIsCounted) {
     const auto telemetry = std::make_shared<observe::Telemetry>();
     const auto counted = coordinator::connectRenderer(address(0), {}, telemetry);
     ASSERT_TRUE(counted->runProgram(directSend(0), soon()).ok());
-    const std::string metrics =
-        telemetry->metrics.text({}, {{observe::rendererName(address(0)), true}});
+    const std::string metrics = telemetry->metrics.text({}, {{address(0), "renderer-3"}});
     EXPECT_THAT(metrics, HasSubstr("eyrie_renderer_pictures_total{way=\"messages\"} 1"));
     EXPECT_THAT(metrics, Not(HasSubstr("eyrie_received_bytes_total{peer=\"renderer\"} 0\n")));
     EXPECT_THAT(metrics, HasSubstr("eyrie_received_bytes_total{peer=\"renderer\"} "));
-    EXPECT_THAT(metrics, HasSubstr("memory=\"device\",renderer=\"s0\"} 12\n"));
-    EXPECT_THAT(metrics, HasSubstr("memory=\"host\",renderer=\"s0\"} 34\n"));
+    EXPECT_THAT(metrics, HasSubstr("memory=\"device\",renderer=\"renderer-3\"} 12\n"));
+    EXPECT_THAT(metrics, HasSubstr("memory=\"host\",renderer=\"renderer-3\"} 34\n"));
 }
 
 TEST_F(ExchangeTest, BinarySwapAmongFourIsTheCentralMergeToTheBit) {

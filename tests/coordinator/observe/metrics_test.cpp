@@ -20,13 +20,13 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string scraped(Metrics& metrics) {
-    return metrics.text({{"ready", 2}, {"dead", 0}}, {{"renderer-0-1", true}});
+    return metrics.text({{"ready", 2}, {"dead", 0}}, {{"10.0.0.7:5000", "renderer-3"}});
 }
 
 /// Of everything that can be scraped: "eyrie_frames_total" and so on.
 std::set<std::string> families() {
     Metrics metrics;
-    metrics.rendererHolds("renderer-0-1", 1, 2);
+    metrics.rendererHolds("10.0.0.7:5000", 1, 2);
     const std::string text = scraped(metrics);
     const std::regex type("# TYPE (\\w+) ");
     std::set<std::string> names;
@@ -135,12 +135,24 @@ TEST(Metrics, TellsWhoWasTurnedAwayAtWhichDoor) {
 
 TEST(Metrics, ForgetsRenderersThatAreGone) {
     Metrics metrics;
-    metrics.rendererHolds("renderer-0-1", 10, 20);
-    metrics.rendererHolds("renderer-1-1", 30, 40);
-    EXPECT_THAT(scraped(metrics), HasSubstr("renderer=\"renderer-0-1\""));
-    EXPECT_THAT(scraped(metrics), Not(HasSubstr("renderer=\"renderer-1-1\"")));
-    metrics.rendererHolds("renderer-1-1", 50, 60);
-    EXPECT_THAT(metrics.text({}, {{"renderer-1-1", true}}), HasSubstr("memory=\"host\""));
+    const std::string other = "unix:/tmp/e/renderer-1-1";
+    metrics.rendererHolds("10.0.0.7:5000", 10, 20);
+    metrics.rendererHolds(other, 30, 40);
+    EXPECT_THAT(scraped(metrics), HasSubstr("memory=\"device\",renderer=\"renderer-3\"} 10\n"));
+    EXPECT_THAT(scraped(metrics), Not(HasSubstr("\"host\",renderer=\"renderer-4\"")));
+    EXPECT_THAT(metrics.text({}, {{other, "renderer-4"}}), Not(HasSubstr("renderer="))) << "forgot";
+    metrics.rendererHolds(other, 50, 60);
+    EXPECT_THAT(metrics.text({}, {{other, "renderer-4"}}),
+                HasSubstr("memory=\"host\",renderer=\"renderer-4\"} 60\n"));
+}
+
+TEST(Metrics, RenderersThatRegisterAnewAreToldUnderTheirNewIdsAlone) {
+    Metrics metrics;
+    metrics.rendererHolds("10.0.0.7:5000", 10, 20);
+    EXPECT_THAT(scraped(metrics), HasSubstr("renderer=\"renderer-3\""));
+    const std::string text = metrics.text({}, {{"10.0.0.7:5000", "renderer-5"}});
+    EXPECT_THAT(text, HasSubstr("memory=\"host\",renderer=\"renderer-5\"} 20\n"));
+    EXPECT_THAT(text, Not(HasSubstr("renderer-3")));
 }
 
 TEST(Metrics, EachHasAPlaceInTheDocumentation) {
@@ -169,12 +181,6 @@ TEST(Metrics, TheDashboardAsksForNothingElse) {
         }
         EXPECT_GT(names, 0) << query;
     }
-}
-
-TEST(RendererName, IsShortForASocket) {
-    EXPECT_EQ(rendererName("unix:/tmp/eyrie-abc/renderer-0-1"), "renderer-0-1");
-    EXPECT_EQ(rendererName("unix:renderer"), "renderer");
-    EXPECT_EQ(rendererName("10.0.0.7:5000"), "10.0.0.7:5000");
 }
 
 }  // namespace

@@ -76,5 +76,11 @@ TEST(TraceBook, ForgetsTheOldest) {
     EXPECT_EQ(spansOf(book.chromeJson(TraceBook::kMaxSpans + 10)).size(), TraceBook::kMaxSpans);
 }
 
+TEST(RendererName, IsShortForASocket) {
+    EXPECT_EQ(rendererName("unix:/tmp/eyrie-abc/renderer-0-1"), "renderer-0-1");
+    EXPECT_EQ(rendererName("unix:renderer"), "renderer");
+    EXPECT_EQ(rendererName("10.0.0.7:5000"), "10.0.0.7:5000");
+}
+
 }  // namespace
 }  // namespace eyrie::observe
