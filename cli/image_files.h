@@ -40,7 +40,7 @@ public:
 };
 
 /// View-space depth in metres as PFM: 32-bit little-endian floats, bottom row first, infinity where
-/// nothing was hit.
+/// nothing was hit that is opaque.
 class DepthFile {
 public:
     static absl::StatusOr<DepthFile> create(const std::string& path, int width, int height);

@@ -313,7 +313,7 @@ void addOutputOptions(CLI::App& command, Options& options) {
         ->required();
     command
         .add_option("--depth", options.depth,
-                    "PFM to write: view-space metres, inf where nothing is")
+                    "PFM to write: view-space metres of what is opaque, inf where nothing is")
         ->type_name("FILE");
     command.add_option("--stats", options.stats, "JSON to write: what was drawn, and how well")
         ->type_name("FILE");

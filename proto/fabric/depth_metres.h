@@ -10,8 +10,8 @@
 
 namespace eyrie::fabric {
 
-/// View-space metres of a picture's depth, infinite where nothing is, in the order of its rows:
-/// from the bottom up.
+/// View-space metres of a picture's depth, infinite where nothing opaque is, in the order of its
+/// rows: from the bottom up.
 inline std::vector<float> depthMetres(const Image& image) {
     std::vector<float> metres;
     metres.reserve(image.depth.size());
