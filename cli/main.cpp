@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cctype>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -129,7 +133,9 @@ ExitStatus runCommandLine(int argc, char** argv) {
     try {
         parse(app, *line);
     } catch (const CLI::Success& asked) {  // --help and --version
-        app.exit(asked);
+        std::ostringstream text;
+        app.exit(asked, text);
+        fmt::print("{}", text.str());
         return ExitStatus::Done;
     } catch (const CLI::ParseError& error) {
         explain(app, error);
@@ -150,6 +156,19 @@ ExitStatus runCommandLine(int argc, char** argv) {
     return eyrie::cli::exitStatusOf(status);
 }
 
+/// What was printed and is lost, as on a full disk, is no success. Until now buffers may hold it.
+ExitStatus afterPrinting(ExitStatus status, const std::optional<std::error_code>& known) {
+    const bool isFlushed = std::fflush(stdout) == 0;
+    const std::string flushError = std::strerror(errno);
+    if (isFlushed && std::ferror(stdout) == 0)
+        return status;
+    const std::string reason = known       ? known->message()
+                               : isFlushed ? "bytes were lost"
+                                           : flushError;
+    eyrie::cli::logFailure("standard output cannot be written: " + reason);
+    return ExitStatus::Failed;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -157,12 +176,19 @@ int main(int argc, char** argv) {
     // and ends neither a server nor leaves half of a file behind.
     std::signal(SIGXFSZ, SIG_IGN);
     eyrie::cli::sayWhereBytesAreLost();
+    ExitStatus status = ExitStatus::Failed;
+    std::optional<std::error_code> whyNotPrinted;
     try {
-        return static_cast<int>(runCommandLine(argc, argv));
+        status = runCommandLine(argc, argv);
     } catch (const std::exception& error) {  // such as too little memory
-        std::fputs("eyrie: ", stderr);
-        std::fputs(error.what(), stderr);
-        std::fputs("\n", stderr);
-        return static_cast<int>(ExitStatus::Failed);
+        const auto* ofSystem = dynamic_cast<const std::system_error*>(&error);
+        if (ofSystem != nullptr && std::ferror(stdout) != 0) {
+            whyNotPrinted = ofSystem->code();
+        } else {
+            std::fputs("eyrie: ", stderr);
+            std::fputs(error.what(), stderr);
+            std::fputs("\n", stderr);
+        }
     }
+    return static_cast<int>(afterPrinting(status, whyNotPrinted));
 }

@@ -465,6 +465,26 @@ TEST_F(BadInput, AnOutputThatNobodyReadsDoesNotKeepTheProgramFromEnding) {
     EXPECT_EQ(test::namesIn(folder_.path()), before) << "it left something behind";
 }
 
+TEST_F(BadInput, StandardOutputThatIsLostIsAFailureAndSaid) {
+    const std::vector<Words> commands = {
+        {"--help"},
+        {"--version"},
+        {"serve", "--help"},
+        {"serve", good("ball.eym"), "--print-config"},
+        {"info", good("ball.eym")},
+        {"info", good("dem.eyt"), "--json"},
+        {"import", "mesh", good("ball.ply"), "-o", bad("out.eym"), "--json"}};
+    for (const Words& arguments : commands) {
+        Words command = test::eyrieCommand(arguments);
+        command.insert(command.begin(), {"/bin/sh", "-c", "exec \"$@\" > /dev/full", "sh"});
+        const test::Outcome outcome = test::run(command, seconds(60), {});
+        EXPECT_EQ(outcome.exit, (test::Exit{kWorkFailed, 0})) << arguments[0] << outcome.errors;
+        EXPECT_TRUE(outcome.errors.ends_with(
+            "eyrie: standard output cannot be written: No space left on device\n"))
+            << arguments[0] << ": " << outcome.errors;
+    }
+}
+
 TEST_F(BadInput, SynthWritesToAPipeAndSaysSo) {
     const std::string pipe = bad("ball.ply");
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
