@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -88,6 +89,9 @@ void addEntry(std::string_view line, spdlog::level::level_enum level) {
     for (const auto& sink : logger.sinks()) sink->log(entry);
 }
 
+/// fmt::print would throw where the terminal is gone, in the midst of what is to end in order.
+void toStandardError(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
 void tellLines(std::string_view lines, spdlog::level::level_enum level) {
     while (!lines.empty()) {
         const std::string_view line = lines.substr(0, lines.find('\n'));
@@ -95,7 +99,7 @@ void tellLines(std::string_view lines, spdlog::level::level_enum level) {
         if (current.isJson)
             addEntry(line, level);
         else
-            fmt::print(stderr, "{}\n", fabric::shownName(line));
+            toStandardError(fabric::shownName(line) + "\n");
     }
 }
 
@@ -141,7 +145,7 @@ void logFailure(const std::string& message) {
     if (current.isJson)
         spdlog::error("{}", message);
     else
-        fmt::print(stderr, "eyrie: {}\n", fabric::shownName(message));
+        toStandardError("eyrie: " + fabric::shownName(message) + "\n");
 }
 
 }  // namespace eyrie::cli

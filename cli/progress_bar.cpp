@@ -19,6 +19,12 @@ constexpr std::chrono::milliseconds kRedrawInterval{100};
 /// Before that, a rate is a guess.
 constexpr double kSettledSeconds = 0.3;
 
+/// fmt::print would throw where the terminal is gone, in the midst of what is to end in order.
+void write(std::FILE* out, const std::string& text) {
+    std::fputs(text.c_str(), out);
+    std::fflush(out);
+}
+
 }  // namespace
 
 std::string progressLine(std::string_view title, std::string_view stage, double fraction,
@@ -47,7 +53,7 @@ ProgressBar::ProgressBar(std::string title, double amount, std::string unit, Sty
 
 ProgressBar::~ProgressBar() {
     if (lineOpen_)
-        fmt::print(out_, "\r\x1b[K");
+        write(out_, "\r\x1b[K");
 }
 
 void ProgressBar::show(std::string_view stage, double fraction, Clock::time_point now) {
@@ -59,7 +65,7 @@ void ProgressBar::show(std::string_view stage, double fraction, Clock::time_poin
         stageBegin_ = now;
         hasEnded_ = false;
         if (style_ == Style::Lines)
-            fmt::print(out_, "{}: {}\n", title_, stage);
+            write(out_, fmt::format("{}: {}\n", title_, stage));
         if (style_ == Style::Log)
             cli::tell(fmt::format("{}: {}", title_, stage));
     }
@@ -75,15 +81,14 @@ void ProgressBar::show(std::string_view stage, double fraction, Clock::time_poin
 
 void ProgressBar::draw(double fraction, Clock::time_point now) {
     const double seconds = std::chrono::duration<double>(now - stageBegin_).count();
-    fmt::print(out_, "\r{}\x1b[K", progressLine(title_, stage_, fraction, seconds, amount_, unit_));
-    std::fflush(out_);
+    write(out_, fmt::format("\r{}\x1b[K",
+                            progressLine(title_, stage_, fraction, seconds, amount_, unit_)));
     lastDrawn_ = now;
     lineOpen_ = true;
 }
 
 void ProgressBar::tell(double fraction, Clock::time_point now) {
-    fmt::print(out_, "{}\n", JsonObject().text("stage", stage_).number("fraction", fraction).str());
-    std::fflush(out_);
+    write(out_, JsonObject().text("stage", stage_).number("fraction", fraction).str() + "\n");
     lastDrawn_ = now;
 }
 

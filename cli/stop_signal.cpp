@@ -13,11 +13,20 @@ namespace {
 
 constexpr std::chrono::seconds kEchoes{1};
 
+/// nohup, for one, starts what is to outlive its terminal.
+bool outlivesItsTerminal() {
+    struct sigaction atHangup {};
+    sigaction(SIGHUP, nullptr, &atHangup);
+    return atHangup.sa_handler == SIG_IGN;
+}
+
 sigset_t stopSignals() {
     sigset_t set;
     sigemptyset(&set);
     sigaddset(&set, SIGINT);
     sigaddset(&set, SIGTERM);
+    if (!outlivesItsTerminal())
+        sigaddset(&set, SIGHUP);
     return set;
 }
 

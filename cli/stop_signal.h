@@ -9,10 +9,10 @@ namespace eyrie::cli {
 /// Undoes StopSignal's hold on the signals in a child process, between fork and exec.
 void unblockStopSignals();
 
-/// Turns SIGINT and SIGTERM into a request to stop. One that comes more than a second later ends
-/// the process as it usually would, should stopping hang; sooner ones are echoes of the first, such
-/// as timeout(1) sends. Make it before any other thread: threads inherit that they leave the
-/// signals alone.
+/// Turns SIGINT, SIGTERM and, unless the process ignores it, SIGHUP into a request to stop. One
+/// that comes over a second later ends the process as it usually would, should stopping hang;
+/// sooner ones are echoes of the first, such as timeout(1) sends. Make it before any other thread:
+/// threads inherit that they leave the signals alone.
 class StopSignal {
 public:
     StopSignal();

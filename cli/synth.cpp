@@ -151,6 +151,11 @@ struct Kind {
     std::shared_ptr<Options> options;
 };
 
+/// What it shares with imports says of itself that an import, or writing, was cancelled.
+absl::Status inItsOwnWords(const absl::Status& status) {
+    return absl::IsCancelled(status) ? absl::CancelledError("stopped") : status;
+}
+
 Kind addKind(CLI::App& parent, const char* name, const char* description, Run& run,
              absl::Status (*make)(const Options&), double least, double most,
              const char* sizeHelp) {
@@ -166,7 +171,8 @@ Kind addKind(CLI::App& parent, const char* name, const char* description, Run& r
     command->add_flag("--quiet", options->quiet,
                       "No progress, and nothing of what was made: only errors");
     command->add_flag("--json", options->json, "Print what was made as JSON");
-    command->callback([options, make, &run] { run = [options, make] { return make(*options); }; });
+    command->callback(
+        [options, make, &run] { run = [options, make] { return inItsOwnWords(make(*options)); }; });
     return {command, options};
 }
 

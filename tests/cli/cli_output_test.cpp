@@ -340,6 +340,19 @@ TEST(ProgressBar, WritesJsonForPrograms) {
               "{\"stage\": \"writing\", \"fraction\": 0}\n");
 }
 
+/// Writing to a closed one fails; what is at work is to end in order.
+TEST(ProgressBar, GoesOnWhereItsTerminalIsGone) {
+    for (const auto style : {ProgressBar::Style::Bar, ProgressBar::Style::Lines}) {
+        std::FILE* gone = std::fopen("/dev/full", "w");
+        std::setvbuf(gone, nullptr, _IONBF, 0);
+        {
+            ProgressBar bar("a.ply", 10, "MB", style, gone);
+            EXPECT_NO_THROW(bar.show("reading", 0, {}));
+        }
+        std::fclose(gone);
+    }
+}
+
 /// What is told on standard error while entries of the log are JSON.
 std::string toldAsJson(const std::function<void()>& tells) {
     startLog({true, "", "import"});

@@ -105,6 +105,26 @@ TEST(StopSignal, TurnsAnInterruptIntoARequest) {
     EXPECT_TRUE(stop.token().stop_requested());
 }
 
+TEST(StopSignal, TurnsTheEndOfItsTerminalIntoARequest) {
+    const StopSignal stop;
+    kill(getpid(), SIGHUP);
+    stop.wait();
+    EXPECT_TRUE(stop.token().stop_requested());
+}
+
+/// As nohup has it.
+TEST(StopSignalDeathTest, OutlivesItsTerminalWhereItIsToldTo) {
+    EXPECT_EXIT(
+        {
+            std::signal(SIGHUP, SIG_IGN);
+            const StopSignal stop;
+            kill(getpid(), SIGHUP);
+            std::this_thread::sleep_for(milliseconds(200));
+            std::exit(stop.token().stop_requested() ? 1 : 0);
+        },
+        testing::ExitedWithCode(0), "");
+}
+
 TEST(StopSignalDeathTest, TakesEchoesOfASignalForOne) {
     EXPECT_EXIT(
         {

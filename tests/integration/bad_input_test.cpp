@@ -454,15 +454,29 @@ TEST_F(BadInput, RenderersThatCannotOpenTheDataAreNotWaitedFor) {
 TEST_F(BadInput, AnOutputThatNobodyReadsDoesNotKeepTheProgramFromEnding) {
     ASSERT_EQ(mkfifo(bad("pipe").c_str(), 0600), 0);
     const std::set<std::string> before = test::namesIn(folder_.path());
-    test::Process render(test::eyrieCommand({"render", good("ball.eym"), "--size", "32x32", "-o",
-                                             bad("out.png"), "--stats", bad("pipe")}));
-    EXPECT_TRUE(test::eventually(seconds(20), [&] {
-        return test::namesIn(folder_.path()).size() > before.size();
-    })) << render.errors();
-    EXPECT_FALSE(render.waitFor(std::chrono::milliseconds(500))) << "it has statistics to tell";
-    render.send(SIGTERM);
-    EXPECT_EQ(render.waitFor(seconds(10)), (test::Exit{kWorkFailed, 0})) << render.errors();
-    EXPECT_EQ(test::namesIn(folder_.path()), before) << "it left something behind";
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+        test::Process render(test::eyrieCommand({"render", good("ball.eym"), "--size", "32x32",
+                                                 "-o", bad("out.png"), "--stats", bad("pipe")}));
+        EXPECT_TRUE(test::eventually(seconds(20), [&] {
+            return test::namesIn(folder_.path()).size() > before.size();
+        })) << render.errors();
+        EXPECT_FALSE(render.waitFor(std::chrono::milliseconds(500))) << "it has statistics to tell";
+        render.send(signal);
+        EXPECT_EQ(render.waitFor(seconds(10)), (test::Exit{kWorkFailed, 0}))
+            << signal << render.errors();
+        EXPECT_EQ(test::namesIn(folder_.path()), before) << signal << " left something behind";
+    }
+}
+
+TEST_F(BadInput, SynthThatIsStoppedSaysSoAndLeavesNothing) {
+    test::Process synth(
+        test::eyrieCommand({"synth", "terrain", "--size", "3000", "-o", bad("out.tif")}));
+    EXPECT_TRUE(test::eventually(
+        seconds(20), [&] { return synth.errors().find("making") != std::string::npos; }));
+    synth.send(SIGINT);
+    EXPECT_EQ(synth.waitFor(seconds(60)), (test::Exit{kWorkFailed, 0}));
+    EXPECT_NE(synth.errors().find("eyrie: stopped"), std::string::npos) << synth.errors();
+    EXPECT_TRUE(test::namesIn(folder_.path()).empty());
 }
 
 TEST_F(BadInput, StandardOutputThatIsLostIsAFailureAndSaid) {
