@@ -106,6 +106,14 @@ bool hasOtherTexture(const aiMaterial& material, aiTextureType type) {
     return false;
 }
 
+/// glTF's magFilter NEAREST.
+bool asksForSquares(const aiMaterial& material, aiTextureType type) {
+    constexpr int kNearest = 9728;
+    int filter = 0;
+    return material.Get(AI_MATKEY_GLTF_MAPPINGFILTER_MAG(type, 0), filter) == AI_SUCCESS &&
+           filter == kNearest;
+}
+
 float cutoffOf(const aiMaterial& material) {
     float cutoff = 0.5F;
     material.Get(AI_MATKEY_GLTF_ALPHACUTOFF, cutoff);
@@ -165,6 +173,7 @@ std::int32_t AssimpMaterials::readTexture(const aiMaterial& material, Entry& ent
     const auto number = static_cast<std::int32_t>(known - textures_.begin());
     if (known == textures_.end())
         textures_.push_back(std::move(source));
+    squared_ += asksForSquares(material, type) ? 1 : 0;
     mirrored_ += std::ranges::count(modes, aiTextureMapMode_Mirror) > 0 ? 1 : 0;
     decals_ += std::ranges::count(modes, aiTextureMapMode_Decal) > 0 ? 1 : 0;
     return number;
@@ -318,6 +327,11 @@ void AssimpMaterials::moveTo(TriangleMesh& mesh) {
             fmt::format("textures of {} materials ought to leave free what is beyond their edges, "
                         "and cover it with these",
                         decals_));
+    if (squared_ > 0)
+        mesh.notes.push_back(
+            fmt::format("textures of {} materials ought to show their texels as squares (magFilter "
+                        "NEAREST), and are smoothed between them",
+                        squared_));
     if (!areAny())
         return;
     mesh.materials = std::move(materials_);

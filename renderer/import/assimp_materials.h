@@ -74,6 +74,7 @@ private:
     std::size_t emitting_ = 0;     ///< materials that emit more than they reflect
     std::size_t mirrored_ = 0;     ///< materials whose texture is to be mirrored where it repeats
     std::size_t decals_ = 0;       ///< materials whose texture is to cover its own place only
+    std::size_t squared_ = 0;      ///< materials whose texture is not to be filtered
     std::vector<Entry> entries_;
     std::vector<mesh::Material> materials_{mesh::Material()};
     std::vector<TextureSource> textures_;

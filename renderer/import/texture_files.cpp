@@ -43,6 +43,7 @@ constexpr float kCutoff = 0.5F;  ///< of materials whose source gives none
 /// Alphas between count as half see-through.
 constexpr std::uint8_t kClear = 32;
 constexpr std::uint8_t kOpaque = 224;
+constexpr float kToldError = 10;  ///< of coding, root of the mean square, of 255
 
 std::string lowered(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -198,6 +199,7 @@ private:
     absl::Status load(std::size_t texture);
     AlphaUse alphaUseOf(std::size_t texture, const std::vector<fabric::Rgba>& texels);
     void settleAlpha(std::size_t texture, const AlphaUse& use);
+    void noteErrors();
 
     const TriangleMesh& mesh_;
     const std::string& path_;
@@ -292,6 +294,24 @@ absl::Status Loading::load(std::size_t texture) {
     return absl::OkStatus();
 }
 
+void Loading::noteErrors() {
+    std::size_t coarse = 0;
+    std::size_t worst = 0;
+    const auto errorOf = [this](std::size_t texture) {
+        const std::int32_t image = imageOf_[texture];
+        return image < 0 ? 0 : result_.images[static_cast<std::size_t>(image)].shape.rmsError;
+    };
+    for (std::size_t i = 0; i < imageOf_.size(); ++i) {
+        coarse += errorOf(i) > kToldError ? 1 : 0;
+        worst = errorOf(i) > errorOf(worst) ? i : worst;
+    }
+    if (coarse > 0)
+        result_.notes.push_back(fmt::format(
+            "{} of {} textures lose more than {} of 255 (RMS) by compression, which takes 4 x 4 "
+            "texels as one: '{}' {:.0f}; made wider and higher they lose less",
+            coarse, imageOf_.size(), kToldError, mesh_.textures[worst].name, errorOf(worst)));
+}
+
 absl::StatusOr<TriangleMesh> Loading::run() {
     std::size_t failed = 0;
     std::string first;
@@ -315,6 +335,7 @@ absl::StatusOr<TriangleMesh> Loading::run() {
             fmt::format("{} of {} textures have no opacity at all, and nobody would see them: they "
                         "are taken for opaque",
                         takenForOpaque_, mesh_.textures.size()));
+    noteErrors();
     return std::move(result_);
 }
 

@@ -25,6 +25,12 @@ using Texels = std::vector<fabric::Rgba>;
 
 constexpr std::size_t kAlphaBytes = 8;  ///< of a block, before the colours' eight
 
+/// Texels a side of images that may be palettes, in which each is the colour of something. Enlarged
+/// they take 44 KB at most, twice that with alpha.
+constexpr std::uint32_t kMostEnlargedSide = 64;
+constexpr std::uint32_t kEnlargement = 4;  ///< to a block for each texel
+constexpr double kMostBlockError = 20;     ///< root of the mean square, of 255
+
 /// What a texel of a coarser level covers along one axis: texels from `first` on, by share.
 struct Cover {
     std::uint32_t first = 0;
@@ -138,36 +144,74 @@ std::array<std::uint8_t, 16> decodeAlphas(const std::byte* block) {
     return alphas;
 }
 
-/// Root of the mean square difference, over texels that show, of their colours, or over all of
-/// alpha where that is more.
-float errorOf(const Image& image, const Texels& texels) {
-    const Texels coded = decodeLevel(image.shape, image.blocks, 0);
-    const std::size_t stride = (image.shape.width + 3) / 4 * 4;
-    const auto square = [](int a, int b) { return static_cast<double>((a - b) * (a - b)); };
-    double ofColours = 0;
-    double ofAlpha = 0;
-    std::size_t shown = 0;
-    for (std::size_t i = 0; i < texels.size(); ++i) {
-        const fabric::Rgba& a = texels[i];
-        const fabric::Rgba& b = coded[i / image.shape.width * stride + i % image.shape.width];
-        if (a.a > 0) {
-            ofColours += square(a.r, b.r) + square(a.g, b.g) + square(a.b, b.b);
-            ++shown;
+/// What coding has made of texels.
+class Difference {
+public:
+    explicit Difference(bool hasAlpha) : hasAlpha_(hasAlpha) {}
+
+    void add(const fabric::Rgba& source, const fabric::Rgba& coded) {
+        if (source.a > 0) {
+            ofColours_ +=
+                square(source.r, coded.r) + square(source.g, coded.g) + square(source.b, coded.b);
+            ++shown_;
         }
-        ofAlpha += image.shape.hasAlpha() ? square(a.a, b.a) : 0;
+        ofAlpha_ += hasAlpha_ ? square(source.a, coded.a) : 0;
+        ++all_;
     }
-    const double colours = shown > 0 ? ofColours / (3 * static_cast<double>(shown)) : 0;
-    const double alpha = ofAlpha / static_cast<double>(texels.size());
-    return static_cast<float>(std::sqrt(std::max(colours, alpha)));
+    /// Root of the mean square, over texels that show, of their colours, or over all of alpha where
+    /// that is more.
+    double rms() const {
+        const double colours = shown_ > 0 ? ofColours_ / (3 * static_cast<double>(shown_)) : 0;
+        return std::sqrt(std::max(colours, ofAlpha_ / static_cast<double>(all_)));
+    }
+
+private:
+    static double square(int a, int b) { return static_cast<double>((a - b) * (a - b)); }
+
+    bool hasAlpha_;
+    double ofColours_ = 0;
+    double ofAlpha_ = 0;
+    std::size_t shown_ = 0;
+    std::size_t all_ = 0;
+};
+
+struct Errors {
+    double ofAll = 0;
+    double ofWorstBlock = 0;
+};
+
+/// Of the finest level.
+Errors errorsOf(const Image& image, const Texels& texels) {
+    const ImageShape& shape = image.shape;
+    const Texels coded = decodeLevel(shape, image.blocks, 0);
+    const std::size_t stride = (shape.width + 3) / 4 * 4;
+    Difference all(shape.hasAlpha());
+    Errors errors;
+    for (std::size_t top = 0; top < shape.height; top += 4)
+        for (std::size_t left = 0; left < shape.width; left += 4) {
+            Difference block(shape.hasAlpha());
+            for (std::size_t y = top; y < std::min<std::size_t>(top + 4, shape.height); ++y)
+                for (std::size_t x = left; x < std::min<std::size_t>(left + 4, shape.width); ++x) {
+                    all.add(texels[y * shape.width + x], coded[y * stride + x]);
+                    block.add(texels[y * shape.width + x], coded[y * stride + x]);
+                }
+            errors.ofWorstBlock = std::max(errors.ofWorstBlock, block.rms());
+        }
+    errors.ofAll = all.rms();
+    return errors;
 }
 
-}  // namespace
+/// Each texel four times in each direction, so that a block has one colour.
+Texels enlarged(const ImageShape& shape, const Texels& texels) {
+    Texels large(texels.size() * 16);
+    for (std::size_t i = 0; i < large.size(); ++i)
+        large[i] = texels[i / (16 * shape.width) * shape.width + i / 4 % shape.width];
+    return large;
+}
 
-Image encodeImage(const ImageShape& shape, std::vector<fabric::Rgba> texels) {
+Image encodeLevels(const ImageShape& shape, const Texels& texels) {
     Image image{shape, {}};
     image.blocks.reserve(shape.bytesFrom(0));
-    if (!shape.hasAlpha())
-        for (fabric::Rgba& texel : texels) texel.a = 255;
     Texels level = texels;
     encodeLevel(shape, 0, level, image.blocks);
     for (std::uint32_t i = 1; i < shape.levels(); ++i) {
@@ -175,7 +219,26 @@ Image encodeImage(const ImageShape& shape, std::vector<fabric::Rgba> texels) {
         encodeLevel(shape, i, level, image.blocks);
     }
     image.shape.meanColour = packColour(level.front());
-    image.shape.rmsError = errorOf(image, texels);
+    return image;
+}
+
+}  // namespace
+
+Image encodeImage(const ImageShape& shape, std::vector<fabric::Rgba> texels) {
+    if (!shape.hasAlpha())
+        for (fabric::Rgba& texel : texels) texel.a = 255;
+    Image image = encodeLevels(shape, texels);
+    const Errors errors = errorsOf(image, texels);
+    image.shape.rmsError = static_cast<float>(errors.ofAll);
+    const bool isSmall = std::max(shape.width, shape.height) <= kMostEnlargedSide;
+    if (!isSmall || errors.ofWorstBlock <= kMostBlockError)
+        return image;
+    ImageShape large = shape;
+    large.width *= kEnlargement;
+    large.height *= kEnlargement;
+    texels = enlarged(shape, texels);
+    image = encodeLevels(large, texels);
+    image.shape.rmsError = static_cast<float>(errorsOf(image, texels).ofAll);
     return image;
 }
 

@@ -146,6 +146,30 @@ TEST_F(MeshMaterials, TexturesOfAFileAreTheRightWayUp) {
     }
 }
 
+/// An asset of few colours: squares of 0.8 metres, each with one texel of a palette.
+TEST_F(MeshMaterials, EachTexelOfAPaletteIsShownInItsColour) {
+    std::vector<Rgba> palette;
+    for (int i = 0; i < 64; ++i)
+        palette.push_back({static_cast<std::uint8_t>(37 * i), static_cast<std::uint8_t>(101 * i),
+                           static_cast<std::uint8_t>(200 - 59 * i), 255});
+    import::TriangleMesh mesh;
+    mesh.materials = {{}, {.image = 0}};
+    mesh.images = {mesh::encodeImage({8, 8, 0}, palette)};
+    const auto placeOf = [](int index) { return 0.8 * (index - 3.5); };
+    for (int i = 0; i < 64; ++i) {
+        const auto first = mesh.positions.size();
+        addSquare(mesh, 0.8, 0, kWhite, 1);
+        for (std::size_t v = first; v < mesh.positions.size(); ++v) {
+            mesh.positions[v] = mesh.positions[v] + Vec3(placeOf(i % 8), placeOf(i / 8), 0);
+            mesh.textureCoordinates[v] = (glm::vec2(i % 8, i / 8) + 0.5F) / 8.0F;
+        }
+    }
+    add(std::move(mesh));
+    const fabric::Image image = draw();
+    for (int i = 0; i < 64; ++i)
+        expectNear(at(image, placeOf(i % 8), placeOf(i / 8)), palette[std::size_t(i)], 4);
+}
+
 TEST_F(MeshMaterials, CoarserLevelsShowTheMeanOfTheLight) {
     std::vector<Rgba> checks;
     for (int i = 0; i < 256 * 256; ++i)

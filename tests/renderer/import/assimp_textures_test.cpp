@@ -214,6 +214,20 @@ TEST(AssimpReader, SaysThatTexturesAreNotMirrored) {
                 testing::Contains(HasSubstr("textures of 3 materials ought to be mirrored")));
 }
 
+TEST(AssimpReader, SaysThatTexturesAreFilteredThatAreNotToBe) {
+    const test::TemporaryFolder folder;
+    const auto expectNote = [&](const std::string& filter, const auto& expected) {
+        test::writeFile(folder.file("m.gltf"),
+                        texturedGltf(R"("wrapT":10497)", R"("wrapT":10497,"magFilter":)" + filter));
+        const auto mesh = readWithAssimp(folder.file("m.gltf"));
+        ASSERT_TRUE(mesh.ok()) << mesh.status();
+        EXPECT_THAT(mesh->notes, expected);
+    };
+    const auto note = testing::Contains(HasSubstr("textures of 3 materials ought to show their"));
+    expectNote("9728", note);
+    expectNote("9729", testing::Not(note));
+}
+
 TEST(AssimpReader, ScalesAndShiftsTexturesOfAnObjAsItsMaterialsSay) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("m.obj"),

@@ -2,6 +2,7 @@
 // Textures of meshes: which are found, which can be read.
 #include <array>
 #include <cstdint>
+#include <random>
 #include <span>
 #include <string>
 #include <utility>
@@ -141,6 +142,27 @@ TEST(MeshImages, LoadsBothImagesOfATexturedPlyOfMeshLab) {
     EXPECT_EQ(mesh->positions.size(), 8U) << "no seams within a square";
     EXPECT_EQ(mesh->materials[mesh->materialOf[0]].image, 0);
     EXPECT_EQ(mesh->materials[mesh->materialOf[7]].image, 1);
+}
+
+/// Noise, which no block of 4 x 4 texels has room for; of small images each texel has one.
+TEST(MeshImages, SaysHowMuchTexturesLoseByCompression) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), test::kTexturedObj);
+    test::writeFile(folder.file("m.mtl"), "newmtl tiles\nmap_Kd a.tga\n");
+    const auto notesOf = [&](int side, unsigned most) {
+        std::mt19937 random(3);
+        std::vector<fabric::Rgba> texels(static_cast<std::size_t>(side * side));
+        for (fabric::Rgba& texel : texels)
+            texel = {static_cast<std::uint8_t>(random() % most),
+                     static_cast<std::uint8_t>(random() % most),
+                     static_cast<std::uint8_t>(random() % most), 255};
+        test::writeFile(folder.file("a.tga"), test::tgaOf(side, side, texels));
+        return readMesh(folder.file("m.obj"))->notes;
+    };
+    EXPECT_THAT(notesOf(96, 256),
+                testing::Contains(HasSubstr("1 of 1 textures lose more than 10 of 255 (RMS)")));
+    EXPECT_THAT(notesOf(96, 16), testing::Not(testing::Contains(HasSubstr("lose"))));
+    EXPECT_THAT(notesOf(64, 256), testing::Not(testing::Contains(HasSubstr("lose"))));
 }
 
 TEST(MeshImages, RefusesTexturesOfAbsurdSize) {
