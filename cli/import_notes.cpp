@@ -35,7 +35,7 @@ std::vector<std::string> notesOf(const import::MeshImportReport& made) {
             fmt::format("left out {} faces of fewer than three corners, {} triangles without area, "
                         "{} that were there already",
                         made.droppedFaces, counts.degenerateTriangles, counts.duplicateTriangles));
-    if (static_cast<double>(counts.degenerateTriangles) >
+    if (static_cast<double>(counts.degenerateTriangles - counts.emptyTriangles) >
         kMostWithoutArea * static_cast<double>(made.triangles))
         notes.push_back(fmt::format(
             "corners are rounded to {:.3g} m, as they are in a mesh of this extent: where many "

@@ -6,7 +6,9 @@
 #include <new>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <absl/status/status.h>
 #include <fmt/format.h>
@@ -60,6 +62,13 @@ absl::Status checkOptions(const MeshImportOptions& options) {
     return absl::OkStatus();
 }
 
+/// Why nothing of a mesh is left may be what reading it has noted, as that its corners are rounded.
+absl::Status withNotes(const absl::Status& status, const std::vector<std::string>& notes) {
+    std::string message(status.message().data(), status.message().size());
+    for (const std::string& note : notes) message += "; " + note;
+    return {status.code(), message};
+}
+
 absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& out,
                                        const MeshImportOptions& options,
                                        const ImportControl& control, std::uint64_t sourceHash) {
@@ -67,8 +76,12 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     Stopwatch watch;
     report.droppedFaces = source.droppedFaces;
     report.notes = std::move(source.notes);
-    ASSIGN_OR_RETURN(const mesh::PackedMesh packed,
-                     packMesh(std::move(source), report.counts, options.pack, control));
+    const absl::StatusOr<mesh::PackedMesh> made =
+        packMesh(std::move(source), report.counts, options.pack, control);
+    if (!made.ok())
+        return absl::IsInvalidArgument(made.status()) ? withNotes(made.status(), report.notes)
+                                                      : made.status();
+    const mesh::PackedMesh& packed = *made;
     report.seconds.pack = watch.lap();
 
     control.report("tree", 0);

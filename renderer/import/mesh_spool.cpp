@@ -115,7 +115,7 @@ bool hasArea(const std::array<std::uint64_t, 3>& positions) {
 }
 
 /// Writes those with an area; isUsed then is that of these.
-absl::Status writeTriangles(MeshSpool& spool, const ImportControl& control) {
+absl::Status writeTriangles(MeshSpool& spool, PackCounts& counts, const ImportControl& control) {
     RowCache<fabric::Vec3> positions(spool.positions);
     std::fill(spool.isUsed.begin(), spool.isUsed.end(), false);
     std::vector<SpooledTriangle> rows;
@@ -128,12 +128,16 @@ absl::Status writeTriangles(MeshSpool& spool, const ImportControl& control) {
             rows.clear();
             for (const mesh::Triangle& triangle : block) {
                 SpooledTriangle row{{}, triangle, number++};
+                std::array<fabric::Vec3, 3> corners;
                 for (std::size_t i = 0; i < 3; ++i) {
                     ASSIGN_OR_RETURN(const fabric::Vec3* const at, positions.at(triangle[i]));
+                    corners[i] = *at;
                     row.positions[i] = mesh::packPosition(spool.lattice.nearest(*at));
                 }
-                if (!hasArea(row.positions))
+                if (!hasArea(row.positions)) {
+                    counts.emptyTriangles += isEmpty(corners) ? 1 : 0;
                     continue;
+                }
                 rows.push_back(row);
                 for (const std::uint32_t corner : triangle) spool.isUsed[corner] = true;
             }
@@ -274,13 +278,16 @@ absl::Status placeOnLattice(MeshSpool& spool, int latticeBits, std::uint64_t atO
     if (spool.sourceTriangles == 0)
         return nothingHasArea(spool.collapsedTriangles);
     ASSIGN_OR_RETURN(spool.lattice, latticeOf(spool, latticeBits));
-    RETURN_IF_ERROR(writeTriangles(spool, control));
+    counts.emptyTriangles = spool.collapsedTriangles;
+    RETURN_IF_ERROR(writeTriangles(spool, counts, control));
     counts.degenerateTriangles =
         spool.collapsedTriangles + spool.sourceTriangles - spool.triangleCount;
     counts.isolatedVertices =
         static_cast<std::uint64_t>(std::count(spool.isUsed.begin(), spool.isUsed.end(), false));
     if (spool.triangleCount == 0)
-        return nothingHasArea(counts.degenerateTriangles, spool.lattice.stepMetres);
+        return nothingHasArea(
+            counts.degenerateTriangles,
+            counts.emptyTriangles == counts.degenerateTriangles ? 0 : spool.lattice.stepMetres);
     ASSIGN_OR_RETURN(spool.source, RowFile<mesh::Triangle>::create(outPath));  // done with
     RETURN_IF_ERROR(dropDuplicates(spool, atOnce, outPath, counts, control));
     control.report("welding", 1);

@@ -301,6 +301,10 @@ mesh::PackedMesh gather(const Weld& welded, const std::vector<VertexKey>& keys, 
 
 }  // namespace
 
+bool isEmpty(const std::array<fabric::Vec3, 3>& corners) {
+    return glm::cross(corners[1] - corners[0], corners[2] - corners[0]) == fabric::Vec3(0);
+}
+
 absl::Status nothingHasArea(std::uint64_t triangles, double stepMetres) {
     if (stepMetres == 0)
         return absl::InvalidArgumentError(
@@ -323,6 +327,7 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
     std::erase_if(source.triangles, [&source](const mesh::Triangle& triangle) {
         return isCollapsed(source, triangle);
     });
+    counts.emptyTriangles = total - source.triangles.size();
     if (source.triangles.empty())
         return nothingHasArea(total);
     const std::vector<std::uint8_t> used = findUsed(source);
@@ -332,11 +337,16 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
                          : mesh::fitLattice(boundsOf(source, used), options.latticeBits));
     Packing packing{std::move(source), {}, {}, {}, {}};
     packing.keys = latticeKeys(packing.source, used, lattice);
-    std::erase_if(packing.source.triangles, [&packing](const mesh::Triangle& triangle) {
-        return !hasArea(packing.keys, triangle);
+    std::erase_if(packing.source.triangles, [&](const mesh::Triangle& triangle) {
+        if (hasArea(packing.keys, triangle))
+            return false;
+        const auto& at = packing.source.positions;
+        if (isEmpty({at[triangle[0]], at[triangle[1]], at[triangle[2]]}))
+            ++counts.emptyTriangles;
+        return true;
     });
     if (packing.source.triangles.empty())
-        return nothingHasArea(total, lattice.stepMetres);
+        return nothingHasArea(total, counts.emptyTriangles == total ? 0 : lattice.stepMetres);
     counts.degenerateTriangles = total - packing.source.triangles.size();
     RETURN_IF_ERROR(control.check());
     packing.byPosition = weld(packing.keys, packing.source.triangles);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -36,12 +37,16 @@ struct PackCounts {
     std::uint64_t isolatedVertices = 0;     ///< used by no triangle
     std::uint64_t weldedVertices = 0;       ///< became one with an equal vertex before them
     std::uint64_t degenerateTriangles = 0;  ///< without area on the lattice: they cover no pixel
+    std::uint64_t emptyTriangles = 0;       ///< of these, without it in the source, too
     std::uint64_t duplicateTriangles = 0;   ///< that one before them, wound the same way, hides
     OrientCounts orient;                    ///< where PackOptions::orients
     bool normalsComputed = false;           ///< for all vertices, or for those with unusable ones
 
     bool operator==(const PackCounts&) const = default;
 };
+
+/// Whether a triangle has no area where its source has its corners.
+bool isEmpty(const std::array<fabric::Vec3, 3>& corners);
 
 /// InvalidArgument: no triangle is left of so many, since none has any area, if `stepMetres` is not
 /// 0 on a lattice of such steps.

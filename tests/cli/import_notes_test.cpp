@@ -53,6 +53,8 @@ TEST(ImportNotes, TellTheLatticesStepWhereManyTrianglesAreSmaller) {
     made.counts.degenerateTriangles = 11;
     EXPECT_THAT(notesOf(made),
                 Contains(AllOf(HasSubstr("rounded to 954 m"), HasSubstr("far from all others"))));
+    made.counts.emptyTriangles = 1;  // in the source, which a finer lattice would not change
+    EXPECT_THAT(notesOf(made), ElementsAre(HasSubstr("11 triangles without area")));
 }
 
 TEST(ImportNotes, AreInTheJsonOfAnImport) {

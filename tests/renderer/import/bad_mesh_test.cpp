@@ -376,6 +376,20 @@ TEST(HardCase17, FacesWithoutExtentFarAwayDoNotCoarsenTheLattice) {
     EXPECT_EQ(counts.isolatedVertices, 3U);
 }
 
+/// 5 cm in the coordinates of a country, of which single precision leaves one point.
+TEST(HardCase19, AMeshOfWhichRoundingLeavesNothingIsRefusedForThat) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"),
+                    "v 2600000.01 1200000.01 400\nv 2600000.06 1200000.01 400\n"
+                    "v 2600000.01 1200000.06 400\nf 1 2 3\n");
+    const auto report = importMesh({folder.file("m.obj")}, folder.file("m.eym"));
+    EXPECT_EQ(report.status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(std::string(report.status().message()),
+                testing::AllOf(testing::HasSubstr("none with any area"),
+                               testing::HasSubstr("coordinates are rounded, by up to 0."),
+                               testing::HasSubstr("export the mesh nearer to 0")));
+}
+
 TEST(HardCase19, MicrometresBesideATerametreAreStoredWithinTheStatedError) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("m.obj"), "v 1e-6 0 0\nv 1e12 0 0\nv 0 1e12 1e-6\nf 1 2 3\n");

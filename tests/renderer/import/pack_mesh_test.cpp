@@ -128,6 +128,20 @@ TEST(PackMesh, RefusesMeshesWithoutAreaSayingSo) {
     }
 }
 
+/// As where a reader has rounded corners.
+TEST(PackMesh, CountsTrianglesWithoutAreaInTheSourceApart) {
+    TriangleMesh source;
+    for (const double x : {0.0, 1e9})
+        for (const auto& [dx, dy] : {std::pair(0, 0), {1, 0}, {2, 0}, {0, 1}})
+            source.positions.emplace_back(x + dx, dy, 0);
+    source.positions.emplace_back(0, 1e9, 0);
+    source.triangles = {{0, 4, 8}, {0, 0, 1}, {0, 1, 2}, {0, 1, 3}};
+    PackCounts counts;
+    ASSERT_TRUE(packMesh(source, counts).ok());
+    EXPECT_EQ(counts.degenerateTriangles, 3U);
+    EXPECT_EQ(counts.emptyTriangles, 2U) << "one is only too small";
+}
+
 TEST(PackMesh, SaysWhatCornersAreRoundedToWhereAllAreaIsLostByIt) {
     TriangleMesh two;
     for (const double x : {0.0, 1e9})
