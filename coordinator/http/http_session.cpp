@@ -294,7 +294,7 @@ private:
 
     /// What is longer than any body may be is found out before it is known who asks.
     std::string tooLong() const {
-        const bool isLongest = parser_->content_length().value_or(0) > kMaxChangeBytes;
+        const bool isLongest = !parser_->is_header_done();  // nothing else ends it there
         return fmt::format("the body is longer than {} MiB; make it shorter",
                            (isLongest ? kMaxChangeBytes : kMaxBodyBytes) / kMiB);
     }
