@@ -13,25 +13,24 @@
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/string.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <fmt/format.h>
 
 #include "coordinator/http/api_calls.h"
 #include "coordinator/http/event_stream.h"
+#include "coordinator/http/late_close.h"
 #include "coordinator/http/observe_routes.h"
 #include "coordinator/http/origin.h"
 #include "coordinator/http/peer.h"
 #include "coordinator/http/problem.h"
 #include "coordinator/http/reply.h"
-#include "coordinator/http/request_target.h"
+#include "coordinator/http/request.h"
 #include "coordinator/http/router.h"
 #include "coordinator/http/stream.h"
 #include "coordinator/http/web_socket.h"
 #include "coordinator/http/write_pace.h"
 #include "fabric/log.h"
-#include "fabric/status.h"
 
 namespace eyrie::http {
 namespace {
@@ -39,7 +38,6 @@ namespace {
 namespace beast = boost::beast;
 using beast::error_code;
 using boost::asio::ip::tcp;
-using Request = beast::http::request<beast::http::string_body>;
 
 constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
 constexpr std::uint64_t kMiB = 1024 * 1024;
@@ -50,9 +48,6 @@ constexpr std::uint64_t kMaxChangeBytes = 8 * kMiB;
 
 /// Bodies above kMaxBodyBytes that are held at once.
 constexpr std::size_t kMaxLongBodies = 16;
-
-/// Of what still comes of a request that has been refused.
-constexpr std::uint64_t kMaxDroppedBytes = 256 * kMiB;
 
 /// How often a client that has sent more than its request is looked at.
 constexpr std::chrono::milliseconds kLookAgain{100};
@@ -72,54 +67,6 @@ absl::Status strangersPage(std::string_view origin, std::string_view host) {
         fmt::format("pages of {} may not connect to this server, which was asked as {}; a proxy in "
                     "between has to pass on the browser's Host",
                     origin, host));
-}
-
-std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
-
-api::RestRequest restRequest(const Request& request, const std::stop_source& gone,
-                             access::Role role) {
-    namespace http = beast::http;
-    const auto header = [&](auto name) { return std::string(view(request[name])); };
-    return {std::string(view(request.method_string())),
-            std::string(view(request.target())),
-            request.body(),
-            header(http::field::content_type),
-            header(http::field::accept),
-            header(http::field::if_none_match),
-            header(http::field::if_match),
-            header("Idempotency-Key"),
-            gone.get_token(),
-            role};
-}
-
-/// Sees that a request says once which host it is for, and where its target does so, too, that this
-/// is the one it says. Errors: InvalidArgument, and those of absoluteTarget().
-absl::Status takeHost(Request& request, bool isEncrypted) {
-    using beast::http::field;
-    constexpr unsigned kFirstWithHosts = 11;  // HTTP/1.1
-    const std::size_t hosts = request.count(field::host);
-    if (hosts > 1 || (hosts == 0 && request.version() >= kFirstWithHosts))
-        return absl::InvalidArgumentError(
-            fmt::format("the request has {} headers Host; send one", hosts));
-    ASSIGN_OR_RETURN(const std::optional<AbsoluteTarget> absolute,
-                     absoluteTarget(view(request.target()), isEncrypted));
-    if (absolute) {
-        request.set(field::host, absolute->host);
-        request.target(absolute->target);
-    }
-    return absl::OkStatus();
-}
-
-/// Whether a client waits to be asked for the body (RFC 9110, 10.1.1).
-bool waitsToGoOn(const Request& header) {
-    return header.version() >= 11 &&
-           beast::iequals(header[beast::http::field::expect], "100-continue");
-}
-
-/// Not only looks, and not at what is no call of the API.
-bool isChange(const Asked& asked) {
-    const std::string_view path = pathOf(asked.target);
-    return isApiCall(path) && roleFor(asked.method, path) >= access::Role::Control;
 }
 
 /// What came is no HTTP, as opposed to: nothing more came.
@@ -229,7 +176,7 @@ private:
         parser_->body_limit(kMaxBodyBytes);
         if (parser_->content_length().value_or(0) <= kMaxBodyBytes)
             return true;
-        const Asked asked = askedBy(parser_->get());
+        const Asked asked = askedBy(parser_->get(), address_);
         if (!isChange(asked)) {
             requestRead(beast::http::error::body_limit);
             return false;
@@ -319,7 +266,7 @@ private:
         if (const absl::Status host = takeHost(request, stream_.isEncrypted()); !host.ok())
             return refuseUnread(absl::IsFailedPrecondition(host) ? 421 : 400,
                                 {host.message().data(), host.message().size()});
-        const Asked asked = askedBy(request);
+        const Asked asked = askedBy(request, address_);
         if (const std::optional<Response> answer = context_.access.answer(asked, context_.frames))
             return reply(*answer, request.keep_alive() && answer->status < 400);
         if (pathOf(view(request.target())) == "/ws")
@@ -343,17 +290,6 @@ private:
                 address_, status, why.substr(0, why.find(';')));
         isUnread_ = true;
         reply(problemResponse(status, why), false);
-    }
-
-    Asked askedBy(const Request& request) const {
-        using beast::http::field;
-        return {view(request.method_string()),
-                view(request.target()),
-                view(request[field::authorization]),
-                view(request[field::cookie]),
-                view(request[field::origin]),
-                view(request[field::host]),
-                address_};
     }
 
     /// Scripts do not learn why a WebSocket was refused: to a plain GET all that would refuse one
@@ -534,33 +470,11 @@ private:
         sayNoMore();
     }
 
-    /// Of a request that was refused unread more may be on its way. A connection that is closed
-    /// before that has come is reset, and the peer may never see the reply.
     void sayNoMore() {
         error_code ignored;
         stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
-        if (!isUnread_ || isTooSlow_ || isEnding_)
-            return;
-        await();
-        patience_.expires_after(context_.options.headerTimeout);
-        patience_.async_wait([weak = weak_from_this()](error_code error) {
-            if (const auto self = weak.lock(); self && !error)
-                self->stream_.close();
-        });
-        buffer_.clear();
-        dropRest(0);
-    }
-
-    /// Until the peer has read the reply and closes, or has sent more than anybody should.
-    void dropRest(std::uint64_t dropped) {
-        stream_.socket().async_read_some(
-            buffer_.prepare(kMaxHeaderBytes),
-            [self = shared_from_this(), dropped](error_code error, std::size_t bytes) {
-                self->count(observe::Direction::In, bytes);
-                if (!error && dropped + bytes < kMaxDroppedBytes)
-                    return self->dropRest(dropped + bytes);
-                self->patience_.cancel();
-            });
+        if (isUnread_ && !isTooSlow_ && !isEnding_)
+            closeOnceRead(std::move(stream_), address_, context_, std::move(slot_));
     }
 
     const std::string address_;
