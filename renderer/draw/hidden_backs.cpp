@@ -6,7 +6,6 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 namespace eyrie::draw {
 namespace {
@@ -58,11 +57,11 @@ bool mayHideBacks(const fabric::Box& bounds, const FrameState& frame,
                   const fabric::Mat4& worldFromObject) {
     if (frame.shading == fabric::Shading::Wireframe)
         return false;
-    const fabric::Vec3 eye(glm::inverse(worldFromObject) * fabric::Vec4(frame.view.eye, 1.0));
+    const lod::ObjectView view(frame.view, worldFromObject);
+    const fabric::Vec3 eye(view.objectFromView()[3]);
     if (bounds.grownBy(0.01 * glm::length(bounds.size())).contains(eye))
         return false;
-    const fabric::Box box =
-        fabric::transformed(bounds, lod::ObjectView(frame.view, worldFromObject).viewFromObject());
+    const fabric::Box box = fabric::transformed(bounds, view.viewFromObject());
     const fabric::Vec3 nearest = glm::clamp(fabric::Vec3(0.0), box.min, box.max);
     const fabric::Frustum& frustum = frame.view.frustum;
     const double x = std::max(std::abs(frustum.left), std::abs(frustum.right));

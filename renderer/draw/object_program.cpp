@@ -121,7 +121,7 @@ void setObject(const effects::ObjectBlock& program, const FrameState& frame,
     const double scale = conformalScale(linear);
     const fabric::Mat3 shadingFromWorld =
         scale > 0 ? glm::transpose(linear / scale) : fabric::Mat3(1.0);
-    const lod::LatticeView lattice(frame.view, worldFromObject * objectFromLattice);
+    const lod::LatticeView lattice(frame.view, worldFromObject, objectFromLattice);
     program.clipFromLattice(lattice.clipFromLattice);
     program.metresFromLattice(glm::mat3(shadingFromWorld * lattice.metresFromLattice));
     program.cameraLattice(lattice.cameraLattice);

@@ -16,8 +16,11 @@ namespace eyrie::lod {
 /// one matrix that all tiles and nodes share. The same lattice point therefore has the same bits
 /// wherever it is drawn: no cracks between tiles, processes or machines.
 struct LatticeView {
-    /// `worldFromLattice` is affine, world metres per lattice step and origin.
-    LatticeView(const View& view, const fabric::Mat4& worldFromLattice);
+    /// `objectFromLattice` is affine, object units per lattice step and origin. What is large in
+    /// the eye, the object's place and the lattice's origin cancels before anything is rounded to
+    /// doubles (on x86; where `long double` has no more digits, while it is rounded).
+    LatticeView(const View& view, const fabric::Mat4& worldFromObject,
+                const fabric::Mat4& objectFromLattice);
 
     glm::ivec3 cameraLattice;         ///< each at most 2^23, so that differences stay below 2^24
     glm::mat4 clipFromLattice;        ///< of (lattice - cameraLattice); reversed infinite depth

@@ -174,7 +174,7 @@ RC_GTEST_PROP(RasterView, PlacesLatticePointsOnItsOwnPixels, (unsigned seed)) {
     RC_PRE(fabric::validate(room.camera).ok());
     const Raster raster = anyRaster(dice);
     const View drawn = rasterView(room.view(), raster);
-    const LatticeView lattice(drawn, glm::scale(Mat4(1.0), Vec3(1.0 / 1024)));
+    const LatticeView lattice(drawn, Mat4(1.0), glm::scale(Mat4(1.0), Vec3(1.0 / 1024)));
     for (int i = 0; i < 20; ++i) {
         const glm::ivec3 point(1024.0 * (room.eye + dice.vector(10)));
         const auto p = room.at(Vec3(point) / 1024.0);

@@ -169,8 +169,7 @@ RC_GTEST_PROP(RoundingPixels, AllowForWhatFloatsMakeOfACorner, (unsigned seed)) 
     RC_PRE(fabric::validate(triangle.camera).ok());
     const View view(triangle.camera, 1280, 720);
     const double step = 1.0 / 64;
-    const Mat4 worldFromLattice = glm::scale(Mat4(1.0), Vec3(step));
-    const LatticeView lattice(view, worldFromLattice);
+    const LatticeView lattice(view, Mat4(1.0), glm::scale(Mat4(1.0), Vec3(step)));
     const Mat4 projection = fabric::clipFromView(view.frustum, fabric::kNearMetres);
     for (const Vec3& corner : triangle.corners) {
         const Vec3 place = glm::round(corner / step);
@@ -303,22 +302,40 @@ TEST(CoveredPixels, AreNoneOfABoxBesideThePicture) {
     EXPECT_TRUE(view.coveredPixels(Box{Vec3(100, 0, 0), Vec3(101, 1, 1)}).isEmpty());
 }
 
-TEST(LatticeView, PlacesTheSameWorldPointAlikeAtAnyDistanceFromTheOrigin) {
-    for (const double origin : {0.0, 5e5, 6.378e6}) {
+TEST(LatticeView, PlacesTheSamePointAlikeAtAnyDistanceFromTheOrigin) {
+    const Vec3 objectOrigin(1.0 / 1024);  // finer than doubles are at the farthest
+    const Mat4 objectFromLattice = glm::scale(glm::translate(Mat4(1.0), objectOrigin), Vec3(0.25));
+    for (const double far : {0.0, 5e5, 6.378e6, 0x1p45}) {
         Camera camera;
-        camera.eye = Vec3(origin) + Vec3(10.3, -20.7, 5.2);
-        camera.target = Vec3(origin) + Vec3(0.4, 0.2, 0.1);
-        Mat4 worldFromLattice = glm::scale(glm::translate(Mat4(1.0), Vec3(origin)), Vec3(0.25));
-        const LatticeView lattice(View(camera, 1280, 720), worldFromLattice);
+        camera.eye = Vec3(far) + Vec3(10.3, -20.7, 5.2);
+        camera.target = Vec3(far) + Vec3(0.4, 0.2, 0.1);
+        Camera near = camera;  // exact differences
+        near.eye -= Vec3(far);
+        near.target -= Vec3(far);
+        const LatticeView lattice(View(camera, 1280, 720), glm::translate(Mat4(1.0), Vec3(far)),
+                                  objectFromLattice);
         for (const glm::ivec3 point : {glm::ivec3(0, 0, 0), glm::ivec3(7, -12, 3)}) {
             const glm::vec4 clip =
                 lattice.clipFromLattice * glm::vec4(glm::vec3(point - lattice.cameraLattice), 1.0F);
             const Vec2 pixel((clip.x / clip.w + 1) * 640, (clip.y / clip.w + 1) * 360);
-            const auto expected = project(camera, 1280, 720, Vec3(origin) + Vec3(point) * 0.25);
+            const auto expected = project(near, 1280, 720, objectOrigin + Vec3(point) * 0.25);
             ASSERT_TRUE(expected);
-            EXPECT_LT(glm::distance(pixel, *expected), 1e-3) << "origin " << origin;
+            EXPECT_LT(glm::distance(pixel, *expected), 1e-3) << "at " << far << " metres";
         }
     }
+}
+
+TEST(LatticeView, TakesAFarOriginBackThatItsObjectIsPlacedBy) {
+    Camera camera;
+    camera.eye = {10.3, -20.7, 5.2};
+    camera.target = {0.4, 0.2, 0.1};
+    const View view(camera, 1280, 720);
+    const Vec3 far(0x1p43, -0x1p42, 0x1p43);
+    const LatticeView here(view, Mat4(1.0), glm::scale(Mat4(1.0), Vec3(0.25)));
+    const LatticeView back(view, glm::translate(Mat4(1.0), -far),
+                           glm::scale(glm::translate(Mat4(1.0), far), Vec3(0.25)));
+    EXPECT_EQ(back.cameraLattice, here.cameraLattice);
+    EXPECT_LT(glm::distance(back.cameraOffsetMetres, here.cameraOffsetMetres), 1e-5);
 }
 
 /// Hard case 21: the camera walks 1,000 steps of a tenth of a millimetre, 6,400 km from the origin,
@@ -335,7 +352,8 @@ TEST(LatticeView, MovesThePictureSteadilyWhileTheCameraSnaps) {
             Camera camera;
             camera.eye = origin + Vec3(0.47 + 1e-4 * k, 0.3, 1.7);
             camera.target = camera.eye + Vec3(0, 10, -1);
-            const LatticeView lattice(View(camera, 1280, 720), worldFromLattice);
+            const LatticeView lattice(View(camera, 1280, 720), glm::translate(Mat4(1.0), origin),
+                                      glm::scale(Mat4(1.0), Vec3(step)));
             const glm::vec4 clip =
                 lattice.clipFromLattice * glm::vec4(glm::vec3(point - lattice.cameraLattice), 1.0F);
             const double x = (clip.x / clip.w + 1) * 640;
@@ -357,7 +375,7 @@ TEST(LatticeView, KeepsFarCamerasInTheRangeWhereDifferencesAreExact) {
     Camera camera;
     camera.eye = {1e9, 0, 0};
     camera.target = {0, 0, 0};
-    const LatticeView lattice(View(camera, 100, 100), glm::scale(Mat4(1.0), Vec3(1e-3)));
+    const LatticeView lattice(View(camera, 100, 100), Mat4(1.0), glm::scale(Mat4(1.0), Vec3(1e-3)));
     EXPECT_LE(std::abs(lattice.cameraLattice.x), 1 << 23);
     const glm::vec4 clip =
         lattice.clipFromLattice * glm::vec4(glm::vec3(-lattice.cameraLattice), 1.0F);
