@@ -20,25 +20,26 @@ public:
                  std::vector<std::string>& segments)
         : canvas_(canvas), layout_(layout), segments_(segments) {}
 
-    void visit(const std::vector<Compound>& compounds, const std::string& inherited) {
-        for (const Compound& each : compounds) {
-            ++visited_;
-            const std::string own =
-                each.swapBarrier ? nameOf(*each.swapBarrier, fmt::format("compound {}", visited_))
-                                 : inherited;
-            if (const auto* shown = std::get_if<DestinationIndex>(&each.channel);
-                shown != nullptr && shown->canvas == canvas_ && shown->layout == layout_ &&
-                shown->segment < segments_.size() && segments_[shown->segment].empty())
-                segments_[shown->segment] = own;
-            visit(each.children, own);
-        }
+    void visitRoots(const std::vector<Compound>& roots) {
+        for (std::size_t i = 0; i < roots.size(); ++i)
+            visit(roots[i], "", fmt::format("compound {}", i));
     }
 
 private:
+    /// `unnamed`: what barriers without a name are called.
+    void visit(const Compound& compound, const std::string& inherited, const std::string& unnamed) {
+        const std::string own =
+            compound.swapBarrier ? nameOf(*compound.swapBarrier, unnamed) : inherited;
+        if (const auto* shown = std::get_if<DestinationIndex>(&compound.channel);
+            shown != nullptr && shown->canvas == canvas_ && shown->layout == layout_ &&
+            shown->segment < segments_.size() && segments_[shown->segment].empty())
+            segments_[shown->segment] = own;
+        for (const Compound& child : compound.children) visit(child, own, unnamed);
+    }
+
     const std::size_t canvas_;
     const std::optional<std::size_t> layout_;
     std::vector<std::string>& segments_;
-    int visited_ = 0;
 };
 
 }  // namespace
@@ -54,7 +55,7 @@ CanvasBarriers swapBarriers(const Configuration& configuration, std::size_t canv
         barriers.segments.push_back(own ? nameOf(*own, fmt::format("segment {}.{}", canvas, i))
                                         : barriers.whole);
     }
-    CompoundWalk(canvas, layout, barriers.segments).visit(configuration.compounds, "");
+    CompoundWalk(canvas, layout, barriers.segments).visitRoots(configuration.compounds);
     const bool areShared =
         std::ranges::adjacent_find(barriers.segments, std::ranges::not_equal_to()) ==
         barriers.segments.end();

@@ -63,6 +63,20 @@ TEST(Plan, ScreensHaveTheNearestSwapBarrier) {
     EXPECT_EQ(of(2, 1), (config::CanvasBarriers{"", {""}}));
 }
 
+/// As Equalizer has it, and as nearly all of its own walls are written.
+TEST(Plan, SwapBarriersWithoutANameJoinTheScreensOfARoot) {
+    const config::Configuration configuration = room(
+        "layout { view { } } canvas { layout 0 "
+        "segment { channel \"a\" } segment { channel \"b\" } segment { channel \"c\" } "
+        "segment { channel \"d\" } } "
+        "compound { compound { channel ( segment 0 view 0 ) swapbarrier { } } "
+        "           compound { compound { channel ( segment 1 view 0 ) swapbarrier { } } } } "
+        "compound { channel ( segment 2 view 0 ) swapbarrier { } } "
+        "compound { channel ( segment 3 view 0 ) }");
+    EXPECT_EQ(config::swapBarriers(configuration, 0, 0),
+              (config::CanvasBarriers{"", {"compound 0", "compound 0", "compound 1", ""}}));
+}
+
 TEST(Plan, BandsAreDrawnOfWhatTheyShowOnly) {
     PlanRequest request = canvasOf(1280, 480);
     request.outputs[0].part = fabric::PixelViewport{0, 100, 700, 50};
