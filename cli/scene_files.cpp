@@ -148,7 +148,7 @@ absl::StatusOr<fabric::Scene> assembleScene(std::span<const std::string> paths, 
     for (fabric::SceneObject& object : scene->objects) {
         ASSIGN_OR_RETURN(const std::string data,
                          cache.dataFor(object.path, object.kind, object.imagery));
-        object.path = page::isVirtual(data) ? data : fs::absolute(data).string();
+        object.path = page::isVirtual(data) ? data : fs::absolute(data).lexically_normal().string();
         object.imagery.clear();
     }
     for (std::string& note : cache.takeNotes()) notes.push_back(std::move(note));

@@ -375,6 +375,17 @@ TEST_F(SceneFiles, ImageryOverAnImportedTerrainIsRefused) {
     EXPECT_THAT(refused.ToString(), testing::HasSubstr("a.tif"));
 }
 
+TEST_F(SceneFiles, DataAreCalledAlikeHoweverTheirPathsAreSpelt) {
+    const auto ball = cache_.dataFor(writeBall(folder_), fabric::ObjectKind::Mesh);
+    ASSERT_TRUE(ball.ok()) << ball.status();
+    fs::copy_file(*ball, folder_.path("ball.eym"));
+    for (const char* name : {"ball.eym", "./ball.eym", "imports/.././ball.eym"}) {
+        const auto scene = assemble({(folder_.path() / name).string()});
+        ASSERT_TRUE(scene.ok()) << scene.status();
+        EXPECT_EQ(scene->objects[0].path, folder_.path("ball.eym")) << name;
+    }
+}
+
 TEST_F(SceneFiles, AMessageNamesTheSceneFile) {
     const std::string scene = folder_.write("bad.json", R"({"objects":[{"name":"ghost"}]})");
     EXPECT_THAT(std::string(readSceneFile(scene).status().message()),
