@@ -63,14 +63,14 @@ absl::Status coordinate(const Options& options) {
     ASSIGN_OR_RETURN(settings.programs, programsOf(options.programs));
     ASSIGN_OR_RETURN(settings.quotas, quotasOf(options.quotas));
     settings.grpcReflection = options.grpcReflection;
-    ASSIGN_OR_RETURN(fabric::Scene scene,
+    ASSIGN_OR_RETURN(NamedScene named,
                      loadScene(options.data.names, options.cache, options.quiet, stop.token()));
     auto coordinator = coordinator::Coordinator::start(settings);
     if (absl::IsUnavailable(coordinator.status()))  // a port in use: the caller can choose another
         return fabric::withContext(absl::InvalidArgumentError(coordinator.status().message()),
                                    "--grpc");
     RETURN_IF_ERROR(coordinator.status());
-    RETURN_IF_ERROR((*coordinator)->setScene(std::move(scene)));
+    RETURN_IF_ERROR((*coordinator)->setScene(std::move(named.scene), std::move(named.asNamed)));
     ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, video,
                                                   options.quotas.crowd, **coordinator));
     fmt::print("Eyrie is at {}\n", door->url());

@@ -98,19 +98,19 @@ absl::Status pick(const Options& options) {
     ASSIGN_OR_RETURN(const fabric::PickRequest request, requestOf(options));
     ASSIGN_OR_RETURN(const fabric::SeenAreas areas, areasOf(options, request));
     ASSIGN_OR_RETURN(const std::optional<fabric::PickRequest> seen, fabric::pickIn(areas, request));
-    ASSIGN_OR_RETURN(const fabric::Scene scene,
+    ASSIGN_OR_RETURN(const NamedScene named,
                      loadScene(std::span(&options.scene, 1), options.source.drawing.cache,
                                options.source.quiet, stop.token()));
     ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.source.drawing.cache));
-    ASSIGN_OR_RETURN(
-        const auto picker,
-        pick::Picker::open(scene, page::sourceOptions(remote.cacheFolder, remote.cacheBytes)));
+    ASSIGN_OR_RETURN(const auto picker,
+                     pick::Picker::open(
+                         named.scene, page::sourceOptions(remote.cacheFolder, remote.cacheBytes)));
     fabric::Picked picked;
     if (seen) {
         ASSIGN_OR_RETURN(picked, picker->pick(*seen));
     }
     const std::string object =
-        picked ? scene.objects[static_cast<std::size_t>(picked->object)].name : "";
+        picked ? named.scene.objects[static_cast<std::size_t>(picked->object)].name : "";
     if (options.json)
         fmt::print("{}\n", (picked ? toJson(*picked, object) : JsonObject()).str());
     else if (picked)

@@ -161,13 +161,13 @@ absl::StatusOr<std::unique_ptr<PictureSource>> PictureSource::open(
     quietLog();
     const Told told = options.configIsTold ? Told::Errors : toldOf(options.quiet);
     ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, told));
-    ASSIGN_OR_RETURN(fabric::Scene scene,
+    ASSIGN_OR_RETURN(NamedScene named,
                      loadScene(std::span(&path, 1), options.drawing.cache, options.quiet, stop));
     // An eye beside the camera, or a canvas, is what only a configuration has.
     const bool isPlain = options.config.shown == coordinator::Shown{};
     if (options.renderers == 0 && !configuration && isPlain)
-        return openHere(scene, options);
-    return openInProcesses(std::move(scene), std::move(configuration), options, stop);
+        return openHere(named.scene, options);
+    return openInProcesses(std::move(named.scene), std::move(configuration), options, stop);
 }
 
 }  // namespace eyrie::cli

@@ -121,8 +121,8 @@ absl::StatusOr<fabric::Scene> readSceneFile(const std::string& path) {
     return scene;
 }
 
-absl::StatusOr<fabric::Scene> assembleScene(std::span<const std::string> paths, DataCache& cache,
-                                            std::vector<std::string>& notes) {
+absl::StatusOr<NamedScene> assembleScene(std::span<const std::string> paths, DataCache& cache,
+                                         std::vector<std::string>& notes) {
     std::optional<fabric::Scene> scene;
     std::vector<fabric::SceneObject> fromScenes;
     std::vector<std::string> others;
@@ -154,9 +154,10 @@ absl::StatusOr<fabric::Scene> assembleScene(std::span<const std::string> paths, 
     for (std::string& note : cache.takeNotes()) notes.push_back(std::move(note));
     ASSIGN_OR_RETURN(const std::vector<std::string> ofCrs, crsNotes(*scene, cache.sources()));
     notes.insert(notes.end(), ofCrs.begin(), ofCrs.end());
-    RETURN_IF_ERROR(placeMeshes(*scene, firstLoose, cache.sources(), notes));
-    RETURN_IF_ERROR(fabric::validate(*scene));
-    return *std::move(scene);
+    NamedScene named{*scene, *std::move(scene)};
+    RETURN_IF_ERROR(placeMeshes(named.scene, firstLoose, cache.sources(), notes));
+    RETURN_IF_ERROR(fabric::validate(named.scene));
+    return named;
 }
 
 }  // namespace eyrie::cli

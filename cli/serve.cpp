@@ -148,9 +148,9 @@ absl::Status serve(const Options& options) {
     ASSIGN_OR_RETURN(const auto farm, std::move(started));
     ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, video,
                                                   options.quotas.crowd, farm->coordinator()));
-    ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options.data.names, options.drawing.cache,
-                                                    options.quiet, stop.token()));
-    RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
+    ASSIGN_OR_RETURN(NamedScene named, loadScene(options.data.names, options.drawing.cache,
+                                                 options.quiet, stop.token()));
+    RETURN_IF_ERROR(farm->coordinator().setScene(std::move(named.scene), std::move(named.asNamed)));
     const Shown shown = farm->frames().status().canvases;
     farm->startRenderers(count.of(shown));
     const absl::Status ready =

@@ -55,14 +55,16 @@ public:
               watchRenderers(*registry_, pipeline_, stop);
           }) {
         if (!options.scene.objects.empty())
-            setScene(options.scene);
+            setScene(options.scene, options.scene);
         door_->use(api_.handlers());
     }
 
     FramePipeline& frames() { return pipeline_; }
     const GrpcService& door() const { return *door_; }
     const api::Api& api() const { return api_; }
-    void setScene(fabric::Scene scene) { api_.begin(std::move(scene)); }
+    void setScene(fabric::Scene scene, fabric::Scene asNamed) {
+        api_.begin(std::move(scene), std::move(asNamed));
+    }
     const observe::SharedTelemetry& telemetry() const { return telemetry_; }
     void drain() {
         api_.endStreams();
@@ -162,9 +164,11 @@ const std::vector<std::string>& Coordinator::grpcAddresses() const {
     return impl_->door().addresses();
 }
 
-absl::Status Coordinator::setScene(fabric::Scene scene) {
+absl::Status Coordinator::setScene(fabric::Scene scene, std::optional<fabric::Scene> asNamed) {
     RETURN_IF_ERROR(check(scene));
-    impl_->setScene(std::move(scene));
+    if (!asNamed)
+        asNamed = scene;
+    impl_->setScene(std::move(scene), *std::move(asNamed));
     return absl::OkStatus();
 }
 

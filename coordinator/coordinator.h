@@ -71,8 +71,10 @@ public:
 
     /// Has all renderers open `scene` in place of the one before: as CoordinatorOptions::scene, for
     /// which another may have been set before. Without objects it is for programs to say what is
-    /// shown. InvalidArgument: fabric::validate refuses it.
-    absl::Status setScene(fabric::Scene scene);
+    /// shown. What others were set in its place is known again by `asNamed`, where that is not
+    /// `scene`: without what was found for it in its files. InvalidArgument: fabric::validate
+    /// refuses it.
+    absl::Status setScene(fabric::Scene scene, std::optional<fabric::Scene> asNamed = {});
 
     /// Takes no more calls of programs over gRPC; those in progress go on, and renderers are heard
     /// as before. Streams of statistics end.

@@ -187,9 +187,10 @@ absl::StatusOr<ReferencePlan> planReference(const RunPlan& plan, const Reference
     ASSIGN_OR_RETURN(const ReferenceMemory memory, memoryOf(reference.frames, options));
     ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(plan.pictures.drawing.cache));
     reference.remote = page::sourceOptions(remote.cacheFolder, remote.cacheBytes);
-    ASSIGN_OR_RETURN(reference.scene,
+    ASSIGN_OR_RETURN(NamedScene named,
                      loadScene(std::span(&plan.scene, 1), plan.pictures.drawing.cache,
                                plan.pictures.quiet, stop));
+    reference.scene = std::move(named.scene);
     ASSIGN_OR_RETURN(reference.sources,
                      findSources(reference.scene, options.sources, memory, reference.remote));
     return reference;

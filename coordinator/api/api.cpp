@@ -53,6 +53,8 @@ const Handlers& Api::handlers() const { return impl_->handlers; }
 const RestDoor& Api::rest() const { return impl_->rest; }
 const std::shared_ptr<stream::SessionBook>& Api::sessions() const { return impl_->sessions; }
 void Api::endStreams() { impl_->sessions->statistics().stop(); }
-void Api::begin(fabric::Scene scene) { impl_->scenes.begin(std::move(scene)); }
+void Api::begin(fabric::Scene scene, fabric::Scene asNamed) {
+    impl_->scenes.begin(std::move(scene), std::move(asNamed));
+}
 
 }  // namespace eyrie::api

@@ -53,8 +53,9 @@ public:
     void endStreams();
 
     /// Sets the scene that the server was started with or, where programs had set another in its
-    /// place before, that. Programs may show its files, wherever they are.
-    void begin(fabric::Scene scene);
+    /// place before, that. Programs may show its files, wherever they are. `asNamed`: as for
+    /// Coordinator::setScene.
+    void begin(fabric::Scene scene, fabric::Scene asNamed);
 
 private:
     class Impl;

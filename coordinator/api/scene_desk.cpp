@@ -35,9 +35,9 @@ std::string& pathIn(v1::SceneObject& object) {
     return object.has_terrain() ? *object.mutable_terrain() : *object.mutable_mesh();
 }
 
-v1::KeptScene keptScene(const fabric::Scene& commandLine, v1::Scene scene) {
+v1::KeptScene keptScene(const fabric::Scene& asNamed, v1::Scene scene) {
     v1::KeptScene kept;
-    *kept.mutable_command_line() = wire::toMessage(commandLine);
+    *kept.mutable_command_line() = wire::toMessage(asNamed);
     *kept.mutable_scene() = std::move(scene);
     return kept;
 }
@@ -54,15 +54,16 @@ SceneDesk::SceneDesk(const std::optional<access::DataFolder>& folder, DataDesk& 
       setScene_(std::move(setScene)),
       state_(state) {}
 
-void SceneDesk::begin(fabric::Scene scene) {
+void SceneDesk::begin(fabric::Scene scene, fabric::Scene asNamed) {
     {
         const std::lock_guard lock(mutex_);
         for (const fabric::SceneObject& object : scene.objects)
             allowed_.emplace(object.path, object.kind);
         commandLine_ = scene;
+        asNamed_ = asNamed;
     }
     const bool hasKept = state_ != nullptr && state_->scene().has_scene();
-    const absl::Status shown = hasKept ? showKept(scene) : absl::NotFoundError("");
+    const absl::Status shown = hasKept ? showKept(scene, asNamed) : absl::NotFoundError("");
     if (shown.ok())
         return;
     if (hasKept)
@@ -72,10 +73,15 @@ void SceneDesk::begin(fabric::Scene scene) {
     setScene_(std::move(scene));
 }
 
-absl::Status SceneDesk::showKept(const fabric::Scene& commandLine) const {
+/// Earlier versions kept it for the command line's scene as that was shown.
+absl::Status SceneDesk::showKept(const fabric::Scene& commandLine,
+                                 const fabric::Scene& asNamed) const {
     const v1::KeptScene kept = state_->scene();
-    if (!google::protobuf::util::MessageDifferencer::Equals(kept.command_line(),
-                                                            wire::toMessage(commandLine)))
+    const auto isOf = [&](const fabric::Scene& scene) {
+        return google::protobuf::util::MessageDifferencer::Equals(kept.command_line(),
+                                                                  wire::toMessage(scene));
+    };
+    if (!isOf(asNamed) && !isOf(commandLine))
         return absl::FailedPreconditionError("that was in place of another");
     ASSIGN_OR_RETURN(fabric::Scene scene, resolved(kept.scene(), {}));
     spdlog::info("the scene that was set in place of the command line's is shown");
@@ -227,7 +233,7 @@ absl::Status SceneDesk::show(v1::Scene message, const std::stop_token& stop) {
     if (scene == commandLine_)
         state_->forgetScene();
     else
-        state_->keep(keptScene(commandLine_, named(scene)));
+        state_->keep(keptScene(asNamed_, named(scene)));
     return absl::OkStatus();
 }
 

@@ -32,8 +32,9 @@ public:
               std::function<void(fabric::Scene)> setScene, StateFile* state);
 
     /// Shows the scene that the server was started with or, where another was shown in its place
-    /// before and still can be, that. Its files may be named from now on.
-    void begin(fabric::Scene scene);
+    /// before and still can be, that. Its files may be named from now on. What is shown in its
+    /// place is kept for `asNamed`: the same without what was found for it in its files.
+    void begin(fabric::Scene scene, fabric::Scene asNamed);
 
     v1::Scene scene() const;
 
@@ -55,7 +56,7 @@ public:
 private:
     absl::StatusOr<std::string> pathOf(const std::string& name, fabric::ObjectKind kind) const;
     v1::Scene named(const fabric::Scene& scene) const;
-    absl::Status showKept(const fabric::Scene& commandLine) const;
+    absl::Status showKept(const fabric::Scene& commandLine, const fabric::Scene& asNamed) const;
     /// An object of a scene, by its position, and its file, by its name in the data folder.
     struct NamedFile {
         int object;
@@ -74,6 +75,7 @@ private:
     mutable std::mutex mutex_;  ///< guards what follows
     std::set<std::pair<std::string, fabric::ObjectKind>> allowed_;
     fabric::Scene commandLine_;  ///< that the server was started with
+    fabric::Scene asNamed_;      ///< the same, as begin() was told
 };
 
 }  // namespace eyrie::api

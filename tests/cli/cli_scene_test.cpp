@@ -17,6 +17,7 @@
 #include "cli/placement.h"
 #include "cli/scene_files.h"
 #include "cli/text_file.h"
+#include "fabric/status.h"
 #include "renderer/import/geotiff_writer.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_synth.h"
@@ -57,7 +58,9 @@ std::string writeBall(const test::TemporaryFolder& folder, std::uint64_t seed = 
 class SceneFiles : public testing::Test {
 protected:
     absl::StatusOr<fabric::Scene> assemble(const std::vector<std::string>& paths) {
-        return assembleScene(paths, cache_, notes_);
+        ASSIGN_OR_RETURN(NamedScene named, assembleScene(paths, cache_, notes_));
+        asNamed_ = std::move(named.asNamed);
+        return std::move(named.scene);
     }
     /// Each has its record beside it.
     std::size_t importsKept() const {
@@ -72,6 +75,7 @@ protected:
     test::TemporaryFolder folder_;
     DataCache cache_{folder_.path() / "imports", ProgressBar::Style::Quiet, {}};
     std::vector<std::string> notes_;
+    fabric::Scene asNamed_;  ///< what was assembled last
 };
 
 TEST(DataFileOf, TellsFilesByTheirEndingInAnyCase) {
@@ -408,6 +412,9 @@ TEST_F(SceneFiles, AMeshWithoutTheTerrainsCoordinatesStandsOnItsMiddleAndThatIsS
     EXPECT_NEAR(std::max({size.x, size.y, size.z}), side / 4, 1);
     ASSERT_EQ(notes_.size(), 1U);
     EXPECT_THAT(notes_.front(), testing::HasSubstr("ball"));
+    ASSERT_EQ(asNamed_.objects.size(), 2U);
+    EXPECT_EQ(asNamed_.objects[1].path, scene->objects[1].path);
+    EXPECT_EQ(asNamed_.objects[1].worldFromObject, fabric::Mat4(1)) << "nobody has said so";
 }
 
 TEST_F(SceneFiles, WhatIsOddInSourcesAndLeftOutOfThemIsToldWhenTheyAreImported) {

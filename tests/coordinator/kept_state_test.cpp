@@ -164,6 +164,32 @@ TEST_F(KeptState, GivesWayToAnotherSceneOfTheCommandLine) {
     expectConfigurationIsSet();
 }
 
+/// As a mesh is that shares no coordinates with the terrain beside it.
+TEST_F(KeptState, IsThereAgainWhereTheCommandLinesScenePlacesItsDataElsewhere) {
+    const fabric::Scene asNamed = std::exchange(options_.scene, {});
+    const auto startPlaced = [&](double metres) {
+        fabric::Scene placed = asNamed;
+        placed.objects.front().worldFromObject[3][0] = metres;
+        start();
+        ASSERT_TRUE(coordinator_->setScene(placed, asNamed).ok());
+    };
+    startPlaced(1);
+    setScene();
+    startPlaced(2);
+    expectScene("set later");
+}
+
+TEST_F(KeptState, OfEarlierVersionsIsReadWhereTheCommandLinesSceneIsPlacedAsItWas) {
+    const fabric::Scene asNamed = options_.scene;
+    options_.scene.objects.front().worldFromObject[3][0] = 1;
+    start();
+    setScene();
+    const fabric::Scene placed = std::exchange(options_.scene, {});
+    start();
+    ASSERT_TRUE(coordinator_->setScene(placed, asNamed).ok());
+    expectScene("set later");
+}
+
 TEST_F(KeptState, GivesWayToAnotherConfigurationOfTheCommandLine) {
     setScene();
     setConfiguration();
