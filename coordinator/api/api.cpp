@@ -20,7 +20,7 @@ public:
                                     : std::make_shared<observe::Telemetry>()),
           quotas(parts.quotas, telemetry),
           sessions(std::make_shared<stream::SessionBook>(parts.quotas.readers)),
-          data(folder, std::move(parts.programs), quotas, telemetry),
+          data(folder, std::move(parts.programs), quotas, telemetry, parts.frames),
           scenes(folder, data, quotas, parts.frames, std::move(parts.setScene), parts.state) {
         addStatusHandlers(handlers, parts.frames);
         addSessionHandlers(handlers, parts.frames, *sessions);

@@ -2,6 +2,7 @@
 #include "coordinator/api/data_desk.h"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,17 +10,20 @@
 #include "coordinator/api/bench_order.h"
 #include "coordinator/api/import_order.h"
 #include "coordinator/api/quotas.h"
+#include "coordinator/frame/frame_source.h"
 #include "fabric/log.h"
 #include "fabric/status.h"
 
 namespace eyrie::api {
 
 DataDesk::DataDesk(const std::optional<access::DataFolder>& folder, Programs programs,
-                   const QuotaKeeper& quotas, observe::SharedTelemetry telemetry)
+                   const QuotaKeeper& quotas, observe::SharedTelemetry telemetry,
+                   const coordinator::FrameSource& frames)
     : folder_(folder),
       programs_(std::move(programs)),
       quotas_(quotas),
       telemetry_(std::move(telemetry)),
+      frames_(frames),
       operations_({.atOnce = std::max<std::size_t>(1, programs_.importsAtOnce)},
                   Operations::Clock::now,
                   [this](const v1::Operation& operation, const absl::Status& status) {
@@ -68,6 +72,14 @@ void DataDesk::noteEnd(const v1::Operation& operation, const absl::Status& statu
                      operation.problem());
 }
 
+bool DataDesk::isOnShow(const std::filesystem::path& file) const {
+    return std::ranges::any_of(
+        frames_.status().scene.objects, [&](const fabric::SceneObject& object) {
+            std::error_code error;
+            return std::filesystem::equivalent(object.path, file, error) && !error;
+        });
+}
+
 absl::StatusOr<v1::Operation> DataDesk::begin(Operations::Order order) {
     absl::StatusOr<v1::Operation> begun = operations_.begin(std::move(order));
     if (absl::IsResourceExhausted(begun.status()))
@@ -85,8 +97,18 @@ absl::StatusOr<v1::Operation> DataDesk::import(const v1::ImportRequest& request)
     ASSIGN_OR_RETURN(const ImportOrder order,
                      importOrderOf(request, *folder_, programs_.importMemoryBytes));
     return begin({request.request_id(), order.kind, request.output(), asked,
-                  [this, order](const Operations::Progress& progress, const std::stop_token& stop) {
-                      return carryOut(order, *folder_, programs_.run, progress, stop);
+                  [this, order, output = request.output()](
+                      const Operations::Progress& progress,
+                      const std::stop_token& stop) -> absl::StatusOr<Operations::Notes> {
+                      ASSIGN_OR_RETURN(Operations::Notes notes,
+                                       carryOut(order, *folder_, programs_.run, progress, stop));
+                      if (isOnShow(order.output))
+                          notes.insert(notes.begin(),
+                                       fmt::format("{} is on show, as it was before: set the scene "
+                                                   "again (PUT /api/v1/scene) to show it as it is "
+                                                   "now",
+                                                   output));
+                      return notes;
                   }});
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <stop_token>
@@ -17,6 +18,10 @@
 #include "coordinator/observe/telemetry.h"
 #include "eyrie/v1/coordinator_service.pb.h"
 
+namespace eyrie::coordinator {
+class FrameSource;
+}
+
 namespace eyrie::api {
 
 struct BenchOrder;
@@ -27,9 +32,10 @@ class QuotaKeeper;
 class DataDesk {
 public:
     /// `folder` and `quotas` outlive the desk; no folder: there are no data. `telemetry` counts
-    /// what becomes of operations.
+    /// what becomes of operations; `frames`, which outlives the desk, knows what is on show.
     DataDesk(const std::optional<access::DataFolder>& folder, Programs programs,
-             const QuotaKeeper& quotas, observe::SharedTelemetry telemetry);
+             const QuotaKeeper& quotas, observe::SharedTelemetry telemetry,
+             const coordinator::FrameSource& frames);
 
     /// Those of DataSets; FailedPrecondition: the server has no data folder, or runs no programs.
     absl::StatusOr<std::vector<v1::DataSet>> dataSets(const std::stop_token& stop);
@@ -57,12 +63,14 @@ private:
     absl::Status checkOperations() const;
     absl::StatusOr<v1::Operation> begin(Operations::Order order);
     void noteEnd(const v1::Operation& operation, const absl::Status& status) const;
+    bool isOnShow(const std::filesystem::path& file) const;
 
     const std::optional<access::DataFolder>& folder_;
     const Programs programs_;
     const QuotaKeeper& quotas_;
     std::optional<DataSets> sets_;
     const observe::SharedTelemetry telemetry_;
+    const coordinator::FrameSource& frames_;
     Operations operations_;  ///< last: what it does ends before the rest goes
 };
 

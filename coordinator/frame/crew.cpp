@@ -319,7 +319,8 @@ absl::Status Crew::seatOpened(Seat& seat, const fabric::SceneInfo& info) {
     } else if (anyOpened()) {
         seat.hasOtherData = true;
         return absl::FailedPreconditionError(
-            fmt::format("{} has other data than the others: {}; give all renderers the same files",
+            fmt::format("{} has other data than the others: {}; give all renderers the same files "
+                        "or, where a file was replaced, set the scene again (PUT /api/v1/scene)",
                         seat.member->id(), difference));
     } else {
         openInAll();

@@ -26,6 +26,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 TEST(DataSet, IsWhatTheProgramTellsOfIt) {
     const auto set = dataSetOf(
@@ -284,6 +285,20 @@ TEST_F(RestData, TellsWhatAnImportLeftOut) {
         ASSERT_EQ(begun.status, 200) << *begun.body;
         EXPECT_THAT(notes(member(begun, "id")), IsEmpty()) << output;
     }
+}
+
+TEST_F(RestData, SaysThatWhatIsOnShowIsShownAnewOnceItIsSetAgain) {
+    coordinator::Status status = frames_.status();
+    status.scene.objects[0].path = fs::canonical(data()) / "survey/dem.eyt";
+    frames_.setStatus(status);
+    ASSERT_EQ(ask("POST", "/imports", import(), "one").status, 200);
+    EXPECT_EQ(endOf("one"), "OPERATION_STATE_DONE");
+    EXPECT_THAT(*ask("GET", "/operations/one").body, HasSubstr("set the scene again"));
+    status.scene.objects[0].path = fs::canonical(data()) / "survey/dem.tif";
+    frames_.setStatus(status);
+    ASSERT_EQ(ask("POST", "/imports", import(R"(,"replace":true)"), "two").status, 200);
+    EXPECT_EQ(endOf("two"), "OPERATION_STATE_DONE");
+    EXPECT_THAT(*ask("GET", "/operations/two").body, Not(HasSubstr("set the scene again")));
 }
 
 TEST_F(RestData, LeavesNothingOfWhatIsCalledOff) {

@@ -166,6 +166,8 @@ TEST_P(FrameScenes, TheDifferenceOfDataNamesFileAndSums) {
         statusOf(1).why,
         testing::HasSubstr("hill (a.eym) has 100 bytes and sum 0000000000000002 there, 100 bytes "
                            "and sum 0000000000000001 with the others"));
+    EXPECT_THAT(statusOf(1).why,
+                testing::HasSubstr("where a file was replaced, set the scene again"));
 }
 
 TEST_P(FrameScenes, OtherDataAreDrawnWhenNobodyIsLeftWithTheFirst) {
