@@ -17,7 +17,7 @@ wire::PictureMemory* PictureMemories::find(const wire::MemoryOffer& offer) {
     }
     auto memory = wire::PictureMemory::open(offer);
     if (!memory.ok()) {
-        spdlog::debug("pictures go in messages: {}", memory.status().ToString());
+        spdlog::debug("pictures go in messages: {}", std::string(memory.status().message()));
         return nullptr;
     }
     opened_.push_front(*std::move(memory));

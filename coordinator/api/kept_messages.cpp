@@ -16,7 +16,8 @@ void take(const typename Map::key_type& key, const Message& message, Map& map) {
     if (read.ok())
         map[key] = *std::move(read);
     else
-        spdlog::warn("something that was set before is left out: {}", read.status().ToString());
+        spdlog::warn("something that was set before is left out: {}",
+                     std::string(read.status().message()));
 }
 
 }  // namespace

@@ -113,8 +113,8 @@ public:
             wire::fromGrpc(stub_->OpenScene(call.context(), request, &response), peer_));
         absl::StatusOr<fabric::SceneInfo> info = wire::fromMessage(response);
         if (!info.ok())
-            return absl::InternalError(
-                fmt::format("{}: OpenScene answered {}", peer_, info.status().ToString()));
+            return absl::InternalError(fmt::format("{}: OpenScene answered {}", peer_,
+                                                   std::string(info.status().message())));
         return info;
     }
 
@@ -216,7 +216,7 @@ public:
         const absl::StatusOr<fabric::PickedPoint> point = wire::fromMessage(response.point());
         if (!point.ok())
             return absl::InternalError(
-                fmt::format("{}: Pick answered {}", peer_, point.status().ToString()));
+                fmt::format("{}: Pick answered {}", peer_, std::string(point.status().message())));
         return fabric::Picked(*point);
     }
 

@@ -43,7 +43,7 @@ std::unique_ptr<wire::PictureMemory> PictureSlots::lend(std::uint64_t bytes) {
     if (made.ok())
         return *std::move(made);
     const std::lock_guard lock(mutex_);
-    stopOffering(made.status().ToString());
+    stopOffering(std::string(made.status().message()));
     return nullptr;
 }
 

@@ -97,7 +97,8 @@ absl::StatusOr<DrawnFrame> ProgramDrawing::draw(const PlannedFrame& frame,
     if (!drawn.ok() && frame.request.stop.stop_requested())
         return drawn;
     if (!drawn.ok())
-        spdlog::warn("frame {} is put together here: {}", frame.number, drawn.status().ToString());
+        spdlog::warn("frame {} is put together here: {}", frame.number,
+                     std::string(drawn.status().message()));
     const std::lock_guard lock(mutex_);
     if (drawn.ok())
         rest_.succeeded();

@@ -295,6 +295,16 @@ TEST_F(KeptState, HasNothingThatCouldNotBeSet) {
     EXPECT_THAT(get("/configuration"), Not(HasSubstr("NaN")));
 }
 
+TEST_F(KeptState, ThatCannotBeSetIsToldInWords) {
+    coordinator_.reset();
+    std::ofstream(file()) << R"({"configuration":{"file":"/etc/wall.eqc","heads":[)"
+                             R"({"observer":"me","roomFromHead":[1]}]}})";
+    const test::CapturedLog log;
+    start();
+    coordinator_.reset();
+    EXPECT_THAT(log.text(), HasSubstr("something that was set before is left out: roomFromHead"));
+}
+
 KeptConfiguration lookingAside(double metres) {
     KeptConfiguration kept;
     kept.settings.heads["me"] = fabric::Mat4(1);

@@ -71,6 +71,15 @@ TEST_F(LyingRenderer, AnAreaOutsideTheTaskIsAnErrorThatNamesIt) {
                                testing::HasSubstr("area is 65x65")));
 }
 
+TEST_F(LyingRenderer, WhatItAnswersWronglyIsToldInWords) {
+    const absl::Status opened =
+        renderer_->openScene({}, ChannelRenderer::Clock::now() + std::chrono::seconds(20)).status();
+    EXPECT_EQ(opened.code(), absl::StatusCode::kInternal);
+    EXPECT_THAT(std::string(opened.message()),
+                testing::AllOf(testing::HasSubstr(": OpenScene answered "),
+                               testing::Not(testing::HasSubstr("INVALID_ARGUMENT"))));
+}
+
 TEST_F(LyingRenderer, TooFewPixelsAreAnError) {
     service_.answer = [](Writer& writer) {
         writer.Write(header(64));
