@@ -17,6 +17,7 @@
 #include "fabric/log.h"
 #include "fabric/status.h"
 #include "wire/json.h"
+#include "wire/json_error.h"
 
 namespace eyrie::api {
 namespace {
@@ -50,10 +51,9 @@ absl::StatusOr<v1::KeptState> read(const access::DataFolder& folder) {
     google::protobuf::util::JsonParseOptions options;
     options.ignore_unknown_fields = true;  // of a newer version
     const auto parsed = google::protobuf::util::JsonStringToMessage(json, &state, options);
-    if (!parsed.ok()) {
-        const std::string reason(parsed.message());
-        return absl::DataLossError(reason.substr(0, reason.find('\n')));  // its place follows
-    }
+    if (!parsed.ok())
+        return absl::DataLossError(
+            wire::jsonError({parsed.message().data(), parsed.message().size()}).text());
     return state;
 }
 

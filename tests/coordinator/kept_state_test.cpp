@@ -305,6 +305,19 @@ TEST_F(KeptState, ThatCannotBeSetIsToldInWords) {
     EXPECT_THAT(log.text(), HasSubstr("something that was set before is left out: roomFromHead"));
 }
 
+TEST_F(KeptState, ThatIsNoObjectIsSetAsideAndToldSo) {
+    for (const char* whole : {"null", "[]"}) {
+        coordinator_.reset();
+        std::ofstream(file()) << whole;
+        const test::CapturedLog log;
+        start();
+        coordinator_.reset();
+        EXPECT_THAT(log.text(), HasSubstr("what was set before is lost: the whole must be an "
+                                          "object in braces; it is state.json.damaged now"))
+            << whole;
+    }
+}
+
 KeptConfiguration lookingAside(double metres) {
     KeptConfiguration kept;
     kept.settings.heads["me"] = fabric::Mat4(1);
