@@ -64,7 +64,9 @@ std::vector<std::pair<std::string_view, std::string_view>> headersOfBytes(
     if (answer.full_name() == v1::GetReportResponse::descriptor()->full_name())
         return {{"Content-Disposition", "The file's name: it is to be saved, not shown."}};
     if (answer.full_name() == v1::RenderImageResponse::descriptor()->full_name())
-        return {{"Eyrie-Tau-Achieved", "Of the picture's bytes: its statistics.tauAchieved."},
+        return {{"Eyrie-Tau-Achieved",
+                 "Of the picture's bytes: its statistics.tauAchieved, Infinity where there is no "
+                 "bound."},
                 {"Eyrie-Complete", "Of the picture's bytes: its statistics.complete."}};
     return {};
 }

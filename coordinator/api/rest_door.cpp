@@ -2,6 +2,7 @@
 #include "coordinator/api/rest_door.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string_view>
 #include <utility>
@@ -136,8 +137,9 @@ void describe(const Message& message, RestAnswer& answer) {
             "Content-Disposition",
             fmt::format("attachment; filename=\"{}\"", fileNameOf(report->file())));
     if (const auto* image = dynamic_cast<const v1::RenderImageResponse*>(&message)) {
+        const double tau = image->statistics().tau_achieved();
         answer.headers.emplace_back("Eyrie-Tau-Achieved",
-                                    fmt::format("{}", image->statistics().tau_achieved()));
+                                    std::isinf(tau) ? "Infinity" : fmt::format("{}", tau));
         answer.headers.emplace_back("Eyrie-Complete",
                                     image->statistics().complete() ? "true" : "false");
     }

@@ -2,6 +2,7 @@
 // Pictures, depths, picks and profiles by REST.
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <span>
 #include <stop_token>
@@ -44,6 +45,17 @@ TEST_F(Rest, PicturesComeAsTheyAreAskedFor) {
     const RestAnswer raw = get("/image?width=2&height=1&format=IMAGE_FORMAT_RAW");
     EXPECT_EQ(raw.contentType, "application/octet-stream");
     EXPECT_EQ(*raw.body, std::string("\x5A\x78\x3C\xFF\x5A\x78\x3C\xFF", 8));
+}
+
+TEST_F(Rest, AnErrorWithoutBoundIsInTheHeaderAsInJson) {
+    frames_.setDraw([](const coordinator::FrameRequest& request) {
+        auto frame = coordinator::plainFrame(request, {90, 120, 60, 255});
+        frame.statistics.tauAchievedPixels = std::numeric_limits<double>::infinity();
+        return frame;
+    });
+    EXPECT_EQ(
+        header(get("/image?width=20&height=10&format=IMAGE_FORMAT_PNG"), "Eyrie-Tau-Achieved"),
+        "Infinity");
 }
 
 TEST_F(Rest, PicturesWithoutACameraShowHeightsAsTheyAreExaggerated) {
