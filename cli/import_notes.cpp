@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -20,6 +22,20 @@ std::string percentages(const std::vector<mesh::LodLevel>& levels,
     return text + " %";
 }
 
+/// "3 faces of fewer than three corners, 122 triangles that were there already"; empty where
+/// nothing was left out.
+std::string leftOutOf(const import::MeshImportReport& made) {
+    std::string text;
+    const auto add = [&](std::uint64_t count, std::string_view what) {
+        if (count > 0)
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+    };
+    add(made.droppedFaces, "faces of fewer than three corners");
+    add(made.counts.degenerateTriangles, "triangles without area");
+    add(made.counts.duplicateTriangles, "triangles that were there already");
+    return text;
+}
+
 /// Of those that are left: more tell that the lattice is too coarse.
 constexpr double kMostWithoutArea = 0.01;
 
@@ -30,11 +46,8 @@ double borderShareOf(const mesh::LodLevel& level) { return level.points.borderSh
 std::vector<std::string> notesOf(const import::MeshImportReport& made) {
     std::vector<std::string> notes = made.notes;
     const import::PackCounts& counts = made.counts;
-    if (made.droppedFaces + counts.degenerateTriangles + counts.duplicateTriangles > 0)
-        notes.push_back(
-            fmt::format("left out {} faces of fewer than three corners, {} triangles without area, "
-                        "{} that were there already",
-                        made.droppedFaces, counts.degenerateTriangles, counts.duplicateTriangles));
+    if (const std::string leftOut = leftOutOf(made); !leftOut.empty())
+        notes.push_back("left out " + leftOut);
     if (static_cast<double>(counts.degenerateTriangles - counts.emptyTriangles) >
         kMostWithoutArea * static_cast<double>(made.triangles))
         notes.push_back(fmt::format(

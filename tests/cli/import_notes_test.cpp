@@ -57,6 +57,20 @@ TEST(ImportNotes, TellTheLatticesStepWhereManyTrianglesAreSmaller) {
     EXPECT_THAT(notesOf(made), ElementsAre(HasSubstr("11 triangles without area")));
 }
 
+TEST(ImportNotes, TellOfWhatWasLeftOutAndNothingElse) {
+    MeshImportReport made;
+    made.triangles = 1000;
+    made.counts.duplicateTriangles = 122;
+    EXPECT_THAT(notesOf(made), ElementsAre("left out 122 triangles that were there already"));
+    made.droppedFaces = 3;
+    EXPECT_THAT(notesOf(made), ElementsAre("left out 3 faces of fewer than three corners, 122 "
+                                           "triangles that were there already"));
+    made.counts.degenerateTriangles = 1;
+    made.counts.duplicateTriangles = 0;
+    EXPECT_THAT(notesOf(made), ElementsAre("left out 3 faces of fewer than three corners, 1 "
+                                           "triangles without area"));
+}
+
 TEST(ImportNotes, AreInTheJsonOfAnImport) {
     MeshImportReport made;
     made.notes = {"1 of 1 textures cannot be read"};
