@@ -41,12 +41,19 @@ void mendPoints(std::string_view numbers, std::size_t first, MendedText& mended)
             mended.replace(first + at, 0, "0");
 }
 
+/// Where a comment begins, or backslashes right before it: what is left of the line does not go on
+/// with the next one.
+std::size_t endOfNumbers(std::string_view line) {
+    const std::size_t comment = line.find('#');
+    return comment == line.npos ? line.size() : line.substr(0, comment).find_last_not_of('\\') + 1;
+}
+
 /// The numbers of a vertex; none of another line. Three are its place, and a fourth its weight,
 /// which polygons have no use for. Of six the last three are its colour, and of seven either those,
 /// behind a weight, or the three before an opacity. What others mean is written nowhere.
 class VertexNumbers {
 public:
-    explicit VertexNumbers(std::string_view line) : line_(line.substr(0, line.find('#'))) {
+    explicit VertexNumbers(std::string_view line) : line_(line.substr(0, endOfNumbers(line))) {
         if (!isVertex(line_))
             return;
         const std::size_t keyword = std::min(line_.find_first_of(kBlank), line_.size());
@@ -140,18 +147,15 @@ VertexKinds kindsOf(std::string_view obj, std::size_t at) {
 void mendNumbers(std::string_view line, std::size_t first, const VertexKinds& kinds,
                  MendedText& mended) {
     const VertexNumbers vertex(line);
-    const std::size_t comment = std::min(line.find('#'), line.size());
+    const std::size_t end = endOfNumbers(line);
     const std::string_view unread = vertex.unread(kinds.haveWeights);
     const auto from = static_cast<std::size_t>(unread.data() - line.data());
     const std::size_t to = from + unread.size();
     mendPoints(line.substr(0, from), first, mended);
     if (!unread.empty())
         mended.replace(first + from, unread.size(), "");
-    mendPoints(line.substr(to, comment - to), first + to, mended);
+    mendPoints(line.substr(to, end - to), first + to, mended);
     const std::string_view more = vertex.haveNoColour() ? kinds.white : std::string_view();
-    std::size_t end = comment;  // what is left does not go on with the next line
-    const std::size_t least = unread.empty() ? 0 : to;
-    while (end > least && comment < line.size() && line[end - 1] == '\\') --end;
     if (end < line.size() || !more.empty())
         mended.replace(first + end, line.size() - end, more);
 }

@@ -161,6 +161,11 @@ TEST(AssimpReader, FindsTheColoursAmongSevenNumbersOfAnObjsVertices) {
                 ElementsAre(HasSubstr("the opacity of 1 vertices")));
 }
 
+TEST(ObjForAssimp, TakesABackslashBeforeACommentForNoNumber) {
+    EXPECT_EQ(objForAssimp("v 0 0 0 1 1 \\# c\n"), "v 0 0 0 \n");
+    EXPECT_EQ(objForAssimp("v 0 0 0 1 1 1\\\\# c\n"), "v 0 0 0 1 1 1\n");
+}
+
 TEST(ObjForAssimp, LeavesAsTheyAreFilesThatAreReadRightly) {
     EXPECT_FALSE(objForAssimp("# .5\no a .5 # b\nv 0.5 -.5 1.\nvn 0 0 1\nf 1 2 3\n"));
     EXPECT_FALSE(objForAssimp(""));
