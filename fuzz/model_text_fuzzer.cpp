@@ -27,7 +27,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace eyrie::import;
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     const auto bytes = std::as_bytes(std::span(data, size));
-    x3dForAssimp(text);
+    if (x3dForAssimp(text).size() > 20 * size)
+        std::abort();
     x3dCaveats(text);
     colladaForAssimp(text);
     if (const auto amf = amfForAssimp(text); amf && amf->size() > 14 * size)

@@ -25,6 +25,8 @@ struct Element {
     std::size_t contentEnd = 0;
     std::size_t end = 0;
 
+    /// Its own end, with nothing in it.
+    bool isTagAlone() const { return contentEnd == end; }
     std::string_view tagOf(std::string_view text) const {
         return text.substr(begin, contentBegin - begin);
     }
@@ -108,7 +110,7 @@ private:
     void join(std::string_view mesh, std::string_view ofObject) {
         std::vector<Element> volumes;
         forEachElement(mesh, "volume", [&](const Element& volume) {
-            if (volume.contentEnd < volume.end)  // not a tag that is its own end
+            if (!volume.isTagAlone())
                 volumes.push_back(volume);
         });
         if (volumes.size() < 2)
@@ -130,7 +132,7 @@ private:
     void colourTriangles(std::string_view triangles, std::string_view colour) {
         forEachElement(triangles, "triangle", [&](const Element& triangle) {
             const std::string_view content = triangle.contentOf(triangles);
-            if (content.find("<color") == content.npos)
+            if (!triangle.isTagAlone() && content.find("<color") == content.npos)
                 mended_.replace(placeOf(content), 0, colour);
         });
     }

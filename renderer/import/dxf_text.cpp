@@ -21,6 +21,8 @@ namespace {
 
 /// Of all that a file inserts in rows and columns; a few numbers may ask for a thousand million.
 constexpr double kMostCopies = 65536;
+/// In bytes, the format's own: each copy has it.
+constexpr std::size_t kLongestName = 255;
 
 bool isRead(std::string_view kind) {
     constexpr std::array<std::string_view, 10> kKinds = {"BLOCK",  "ENDBLK", "INSERT", "POLYLINE",
@@ -59,7 +61,7 @@ public:
         if (!insert.isRepeated())
             return true;
         const double copies = insert.columns * insert.rows;
-        if (!(copies_ + copies <= kMostCopies))
+        if (insert.block.size() > kLongestName || !(copies_ + copies <= kMostCopies))
             return false;
         copies_ += copies;
         return true;
@@ -213,10 +215,11 @@ std::vector<std::string> dxfCaveats(std::string_view dxf) {
     });
     std::vector<std::string> caveats;
     if (misplaced > 0)
-        caveats.push_back(
-            fmt::format("{} blocks are not put as the file has them: turned, in a plane of their "
-                        "own or more than {} times in all; explode them before export",
-                        misplaced, kMostCopies));
+        caveats.push_back(fmt::format(
+            "{} blocks are not put as the file has them: turned, in a plane of their "
+            "own, in rows under a name of more than {} bytes, or more than {} times in all; "
+            "explode them before export",
+            misplaced, kLongestName, kMostCopies));
     if (surfaces > 0)
         caveats.push_back(
             fmt::format("left out {} surfaces of the kinds {}, which are not read: turn them into "

@@ -75,9 +75,9 @@ std::string transformForAssimp(std::string_view tag) {
     return withValue(tag, value, fmt::format("{} {}", other.x, other.y));
 }
 
-/// Of strips of so many vertices each, which follow each other; empty where there are more than so
-/// many in all.
-std::string indicesOfStrips(std::string_view counts, std::uint64_t mostVertices) {
+/// Of strips of so many vertices each, which follow each other, out of those that are left; empty
+/// where fewer are.
+std::string indicesOfStrips(std::string_view counts, std::uint64_t& verticesLeft) {
     std::string indices;
     std::uint64_t first = 0;
     while (true) {
@@ -87,8 +87,9 @@ std::string indicesOfStrips(std::string_view counts, std::uint64_t mostVertices)
         if (read.ec != std::errc())
             return indices;
         counts.remove_prefix(static_cast<std::size_t>(read.ptr - counts.data()));
-        if (count > mostVertices - first)
+        if (count > verticesLeft)
             return {};
+        verticesLeft -= count;
         for (std::uint64_t i = first; i < first + count; ++i) indices += fmt::format("{} ", i);
         indices += "-1 ";
         first += count;
@@ -99,11 +100,12 @@ std::string indicesOfStrips(std::string_view counts, std::uint64_t mostVertices)
 struct Source {
     std::string_view x3d;
     bool hasMaterials;
+    std::uint64_t verticesLeft;  ///< for strips: a file has no more vertices than bytes
 };
 
-/// A file has no more vertices than bytes.
-std::string stripsForAssimp(std::string_view tag, const Source& source) {
-    const std::string indices = indicesOfStrips(xmlAttribute(tag, "stripCount"), source.x3d.size());
+std::string stripsForAssimp(std::string_view tag, Source& source) {
+    const std::string indices =
+        indicesOfStrips(xmlAttribute(tag, "stripCount"), source.verticesLeft);
     return fmt::format("<IndexedTriangleStripSet index='{}'{}", indices,
                        tag.substr(std::string_view("<TriangleStripSet").size()));
 }
@@ -149,7 +151,7 @@ std::string facesForAssimp(std::string_view tag) {
 }
 
 /// With a plain material where it has none, and others have: Assimp gives it that of another.
-std::string shapeForAssimp(std::string_view tag, const Source& source) {
+std::string shapeForAssimp(std::string_view tag, Source& source) {
     constexpr std::string_view kPlain =
         "<Appearance><Material diffuseColor='0.8 0.8 0.8'/></Appearance>";
     const auto begin = static_cast<std::size_t>(tag.data() - source.x3d.data()) + tag.size();
@@ -163,20 +165,17 @@ std::string shapeForAssimp(std::string_view tag, const Source& source) {
 /// A tag that is mended, and how.
 struct Mending {
     std::string_view opening;
-    std::string (*mended)(std::string_view tag, const Source& source);
+    std::string (*mended)(std::string_view tag, Source& source);
 };
 constexpr std::array kMendings = {
-    Mending{"<ImageTexture",
-            [](std::string_view tag, const Source&) { return imageForAssimp(tag); }},
+    Mending{"<ImageTexture", [](std::string_view tag, Source&) { return imageForAssimp(tag); }},
     Mending{"<TextureTransform",
-            [](std::string_view tag, const Source&) { return transformForAssimp(tag); }},
+            [](std::string_view tag, Source&) { return transformForAssimp(tag); }},
     Mending{"<TriangleStripSet", stripsForAssimp},
-    Mending{
-        "</TriangleStripSet",
-        [](std::string_view, const Source&) { return std::string("</IndexedTriangleStripSet>"); }},
+    Mending{"</TriangleStripSet",
+            [](std::string_view, Source&) { return std::string("</IndexedTriangleStripSet>"); }},
     Mending{"<Shape", shapeForAssimp},
-    Mending{"<IndexedFaceSet",
-            [](std::string_view tag, const Source&) { return facesForAssimp(tag); }},
+    Mending{"<IndexedFaceSet", [](std::string_view tag, Source&) { return facesForAssimp(tag); }},
 };
 
 /// The end of a comment or of characters that are none of XML's; nothing of a tag.
@@ -205,7 +204,7 @@ std::string withoutCommas(std::string_view tag) {
 }  // namespace
 
 std::string x3dForAssimp(std::string_view x3d) {
-    const Source source{x3d, x3d.find("<Material") != x3d.npos};
+    Source source{x3d, x3d.find("<Material") != x3d.npos, x3d.size()};
     std::string result;
     std::size_t copied = 0;
     for (std::size_t at = x3d.find('<'); at < x3d.size();) {

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "renderer/import/amf_text.h"
 #include "renderer/import/assimp_reader.h"
 #include "tests/renderer/import/assimp_files.h"
 #include "tests/renderer/mesh/temporary_folder.h"
@@ -111,6 +112,16 @@ TEST(AssimpReader, HasAllVolumesOfAnAmfMeshInTheirColours) {
     EXPECT_THAT(
         coloursOf(amfOfVolumes("", red, ">")),
         ElementsAre(std::pair(0.0, isRed), std::pair(1.0, fabric::Rgba{255, 255, 255, 255}), last));
+}
+
+TEST(AmfForAssimp, PutsNoColourBehindATriangleOfNothing) {
+    const auto joined = amfForAssimp(
+        "<amf><object><mesh><volume><triangle></triangle></volume><volume><color><r>1</r></color>"
+        "<triangle/><triangle></triangle></volume></mesh></object></amf>");
+    EXPECT_EQ(joined,
+              "<amf><object><mesh><volume><triangle></triangle>"
+              "<triangle/><triangle><color><r>1</r></color></triangle></volume></mesh></object>"
+              "</amf>");
 }
 
 }  // namespace

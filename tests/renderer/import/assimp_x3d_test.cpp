@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/import/assimp_reader.h"
+#include "renderer/import/x3d_text.h"
 #include "tests/renderer/import/assimp_files.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
@@ -92,6 +93,13 @@ TEST(AssimpReader, CountsWhatX3dHidesAndTrianglesThatAreSeenFromBehind) {
     EXPECT_THAT(notesOf("", "TriangleSet ccw = \"false\""),
                 ElementsAre(HasSubstr("1 TriangleSets have their back in front")));
     EXPECT_THAT(notesOf("", "TriangleSet ccw='true'"), IsEmpty());
+}
+
+/// Each set may say in a few bytes that it has as many vertices as the file has bytes.
+TEST(X3dForAssimp, HasNoMoreVerticesInStripsThanTheFileHasBytes) {
+    std::string x3d;
+    for (int i = 0; i < 1000; ++i) x3d += "<TriangleStripSet stripCount='30000'>";
+    EXPECT_LT(x3dForAssimp(x3d).size(), 8 * x3d.size());
 }
 
 }  // namespace

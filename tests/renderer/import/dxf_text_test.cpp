@@ -21,6 +21,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::SizeIs;
 
 /// A unit square of a corner at 5, 5, 0.
 constexpr std::string_view kFace =
@@ -239,6 +240,15 @@ TEST(DxfCaveats, CountBlocksThatAFileRepeatsTooOften) {
     const std::string dxf = dxfOf(0, "", inserts);
     EXPECT_THAT(dxfCaveats(dxf), ElementsAre(HasSubstr("2 blocks are not put")));
     EXPECT_LT(dxfForAssimp(dxf)->size(), std::size_t{16} << 20);
+}
+
+TEST(DxfCaveats, CountBlocksInRowsWhoseNamesAreTooLongForSoManyCopies) {
+    for (const std::size_t length : {std::size_t{255}, std::size_t{60000}}) {
+        const std::string dxf = dxfOf(
+            0, "", fmt::format("0\nINSERT\n2\n{}\n70\n256\n71\n256\n", std::string(length, 'B')));
+        EXPECT_THAT(dxfCaveats(dxf), SizeIs(length > 255 ? 1 : 0));
+        EXPECT_LT(dxfForAssimp(dxf)->size(), std::size_t{32} << 20);
+    }
 }
 
 TEST(DxfCaveats, NameTheSurfacesThatAreNotRead) {
