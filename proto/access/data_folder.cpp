@@ -57,8 +57,8 @@ absl::Status checkDataName(std::string_view name) {
     if (name.size() > DataFolder::kMaxNameBytes)
         return invalid(name.substr(0, 64),
                        fmt::format("… has more than {} bytes", DataFolder::kMaxNameBytes));
-    for (const unsigned char c : name)
-        if (c < 0x20 || c == 0x7f || c == '\\' || c == ':')
+    for (const char c : name)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == '\\' || c == ':')
             return invalid(name, "has a control character, a backslash or a colon");
     if (!isUtf8(name))
         return invalid(name, "is not UTF-8");

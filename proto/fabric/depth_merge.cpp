@@ -76,11 +76,12 @@ void mergeDepth(const ImageView& source, Image& target, Ties ties) {
     assert(source.hasDepth() && target.hasDepth());
     assert(target.area.contains(source.area));
     const auto merge = ties == Ties::Source ? mergeRowBefore : mergeRow;
+    const auto sourceWidth = static_cast<std::size_t>(source.area.width);
+    const auto targetWidth = static_cast<std::size_t>(target.area.width);
     for (int y = 0; y < source.area.height; ++y) {
-        const auto from = static_cast<std::size_t>(y) * source.area.width;
-        const auto to =
-            static_cast<std::size_t>(source.area.y + y - target.area.y) * target.area.width +
-            static_cast<std::size_t>(source.area.x - target.area.x);
+        const auto from = static_cast<std::size_t>(y) * sourceWidth;
+        const auto to = static_cast<std::size_t>(source.area.y + y - target.area.y) * targetWidth +
+                        static_cast<std::size_t>(source.area.x - target.area.x);
         merge({bits(source.depth.data() + from), bits(source.colour.data() + from),
                bits(target.depth.data() + to), bits(target.colour.data() + to), source.area.width});
     }
