@@ -230,6 +230,7 @@ absl::StatusOr<v1::RenderImageResponse> Painter::render(const v1::RenderImageReq
         *response.mutable_depth() = upright(fabric::depthMetres(frame.image), frame.image.area);
     *response.mutable_statistics() =
         stream::statisticsMessage(frame, frame.image.area.width, frame.image.area.height);
+    response.set_revision(frame.revision);
     return response;
 }
 

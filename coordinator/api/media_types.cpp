@@ -67,7 +67,8 @@ std::vector<std::pair<std::string_view, std::string_view>> headersOfBytes(
         return {{"Eyrie-Tau-Achieved",
                  "Of the picture's bytes: its statistics.tauAchieved, Infinity where there is no "
                  "bound."},
-                {"Eyrie-Complete", "Of the picture's bytes: its statistics.complete."}};
+                {"Eyrie-Complete", "Of the picture's bytes: its statistics.complete."},
+                {"Eyrie-Revision", "Of the picture's bytes: its revision."}};
     return {};
 }
 

@@ -142,6 +142,7 @@ void describe(const Message& message, RestAnswer& answer) {
                                     std::isinf(tau) ? "Infinity" : fmt::format("{}", tau));
         answer.headers.emplace_back("Eyrie-Complete",
                                     image->statistics().complete() ? "true" : "false");
+        answer.headers.emplace_back("Eyrie-Revision", fmt::format("{}", image->revision()));
     }
 }
 

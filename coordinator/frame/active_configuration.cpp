@@ -109,6 +109,7 @@ absl::Status ActiveConfiguration::show(config::ConfigurationState state) {
     state_ = std::move(state);
     display_ = displayOf(written_, state_);
     shown_ = config::applied(written_, state_);
+    onDisplay_ = config::onDisplay(shown_, state_);
     for (Balance& balance : balances_) showIn(balance.live);
     config::Findings findings;
     resolved_ = config::resolve(shown_, display_, findings);

@@ -15,6 +15,7 @@
 #include "coordinator/compound/equalizer/equalizers.h"
 #include "coordinator/compound/plan.h"
 #include "coordinator/config/configuration.h"
+#include "coordinator/config/on_display.h"
 #include "coordinator/config/resolved.h"
 #include "coordinator/config/state.h"
 #include "coordinator/frame/frame_source.h"
@@ -33,6 +34,7 @@ public:
 
     const config::Configuration& written() const { return written_; }
     const config::ConfigurationState& state() const { return state_; }
+    const config::OnDisplay& onDisplay() const { return onDisplay_; }
     /// As they are for the session that was planned for last.
     std::vector<equalizer::EqualizerState> equalizers() const {
         return balances_.front().equalizers.states();
@@ -128,6 +130,7 @@ private:
     config::Configuration shown_;             ///< written_, with what state_ changes of it
     config::Display display_;                 ///< of state_
     config::ResolvedConfiguration resolved_;  ///< of shown_, as displayed
+    config::OnDisplay onDisplay_;             ///< the same
     std::optional<Sized> drawn_;              ///< for the last frame planned
     std::vector<Pipe> pipes_;
     RendererOfPipe renderers_;

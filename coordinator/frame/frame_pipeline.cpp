@@ -113,6 +113,7 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderInTurn(const FrameRequest& as
             continue;  // the scene was replaced meanwhile: draw that one
         RETURN_IF_ERROR(drawn.status());
         pass.awaitEarlier();
+        drawn->picture.revision = planned.revision;
         fabric::FrameStatistics& statistics = drawn->picture.statistics;
         planner_.record(planned, statistics, drawn->taken);
         const std::chrono::duration<double, std::milli> taken = FramePlanner::Clock::now() - start;

@@ -114,6 +114,7 @@ absl::StatusOr<PlannedFrame> FramePlanner::plan(const FrameRequest& asked, const
     frame.intervalMilliseconds = active_->intervalMilliseconds();
     frame.frameData = frameDataFor(frame.request, budget);
     frame.kind = kinds_.of(frame.request, scene.revision);
+    frame.revision = revision_.of(scene.revision, active_->onDisplay());
     if (asked.jpegQuality > 0)
         frame.tiles = compound::tilesOf(frame.plan).value_or(std::vector<compound::Tile>());
     if (frame.tiles.empty())

@@ -14,6 +14,7 @@
 #include "coordinator/frame/budget_keeper.h"
 #include "coordinator/frame/configuration_keeper.h"
 #include "coordinator/frame/frame_kinds.h"
+#include "coordinator/frame/picture_revision.h"
 #include "coordinator/frame/planned_frame.h"
 
 namespace eyrie::coordinator {
@@ -79,6 +80,7 @@ private:
     fabric::FrameData frameData_;
     BudgetKeepers keepers_;
     FrameKinds kinds_;
+    PictureRevision revision_;
     ConfigurationKeeper configuration_;
     std::shared_ptr<ActiveConfiguration> active_;  ///< of the last frame
     std::uint64_t lastRevision_ = 0;               ///< of the scene

@@ -107,6 +107,8 @@ struct RenderedFrame {
     std::vector<DrawnPart> parts = {};        ///< who drew what
     /// Side by side they are the picture, where the request allows it: `image` has no pixels then.
     std::vector<CodedTile> tiles = {};
+    /// PictureRevision: pictures with different ones do not belong together.
+    std::uint64_t revision = 0;
 };
 
 /// Of the first of a frame's pictures of which a part shows nothing.

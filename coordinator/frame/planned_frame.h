@@ -28,6 +28,7 @@ struct PlannedFrame {
     std::vector<std::shared_ptr<Member>> members;  ///< those that were ready
     std::uint64_t number = 0;                      ///< ascending from 1
     std::uint64_t kind = 0;                        ///< FrameKinds
+    std::uint64_t revision = 0;                    ///< PictureRevision
     double intervalMilliseconds = 0;               ///< ActiveConfiguration::intervalMilliseconds
     std::string timeLine;  ///< of traces, where frames at the same time have different ones
     fabric::FrameData frameData;

@@ -237,6 +237,7 @@ std::string frameMessage(const EncodedFrame& encoded, const coordinator::Rendere
     }
     frame.set_link_bytes_per_second(encoded.linkBytesPerSecond);
     frame.set_swap(encoded.swap);
+    frame.set_revision(rendered.revision);
     if (encoded.output < rendered.pictures.size())
         setSeen(rendered.pictures[encoded.output].seen, frame);
     *frame.mutable_statistics() = statisticsMessage(rendered, picture.width, picture.height);

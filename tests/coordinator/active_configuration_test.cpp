@@ -8,8 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include <glm/ext/matrix_transform.hpp>
 #include <gmock/gmock.h>
 
+#include "coordinator/config/default_config.h"
 #include "coordinator/config/eqc_reader.h"
 #include "coordinator/frame/kept_settings.h"
 
@@ -268,6 +270,47 @@ TEST(ActiveConfiguration, ShowsWhatAnObserverSeesWithOtherEyesAndAnotherFocus) {
     ASSERT_TRUE(changed.setObserver("0", {}).ok());
     EXPECT_EQ(sightsOf(changed), before);
     EXPECT_FALSE(changed.setObserver("nobody", {}).ok());
+}
+
+TEST(ActiveConfiguration, KnowsWhetherWhatIsOnDisplayIsAnother) {
+    ActiveConfiguration active = hiddenWall();
+    const config::OnDisplay before = active.onDisplay();
+    config::ViewState settings;
+    settings.modelUnit = 10;
+    ASSERT_TRUE(active.setView("wall", "0", settings).ok());
+    EXPECT_EQ(active.onDisplay(), before) << "it is not shown";
+    ASSERT_TRUE(active.switchLayout("0", "wall").ok());
+    const config::OnDisplay wall = active.onDisplay();
+    EXPECT_NE(wall, before);
+    ASSERT_TRUE(active.setView("wall", "0", {}).ok());
+    EXPECT_NE(active.onDisplay(), wall);
+    ASSERT_TRUE(active.setView("wall", "0", settings).ok());
+    EXPECT_EQ(active.onDisplay(), wall);
+    ASSERT_TRUE(
+        active.setHead("0", glm::translate(fabric::Mat4(1.0), fabric::Vec3(0, 0, .1))).ok());
+    EXPECT_NE(active.onDisplay(), wall);
+    ASSERT_TRUE(active.setHead("0", fabric::Mat4(1.0)).ok());
+    ASSERT_TRUE(active.setObserver("0", {.2, {}, {}}).ok());
+    EXPECT_NE(active.onDisplay(), wall);
+    ASSERT_TRUE(active.setObserver("0", {}).ok());
+    ASSERT_TRUE(active.switchLayout("0", "plain").ok());
+    EXPECT_EQ(active.onDisplay(), before);
+}
+
+/// All layouts of one that is made show the same.
+TEST(ActiveConfiguration, HasTheSameOnDisplayHoweverItIsDrawn) {
+    const std::vector<config::RendererFacts> renderers(4, {"a", "", "fake"});
+    const ActiveConfiguration one(config::defaultConfiguration(std::span(renderers).first(1)));
+    ActiveConfiguration four(config::defaultConfiguration(renderers));
+    EXPECT_EQ(four.onDisplay(), one.onDisplay());
+    for (const std::string& layout : config::layoutNames(four.written())) {
+        ASSERT_TRUE(four.switchLayout("0", layout).ok());
+        EXPECT_EQ(four.onDisplay(), one.onDisplay()) << layout;
+    }
+    equalizer::Tuning frozen;
+    frozen.isFrozen = true;
+    ASSERT_TRUE(four.tune("2D", frozen).ok());
+    EXPECT_EQ(four.onDisplay(), one.onDisplay());
 }
 
 }  // namespace

@@ -58,6 +58,19 @@ TEST_F(Rest, AnErrorWithoutBoundIsInTheHeaderAsInJson) {
         "Infinity");
 }
 
+TEST_F(Rest, PicturesSayOfWhichRevisionTheyAre) {
+    std::uint64_t revision = 0xfedcba9876543210;
+    frames_.setDraw([&](const coordinator::FrameRequest& request) {
+        coordinator::RenderedFrame frame = coordinator::plainFrame(request, {1, 2, 3, 255});
+        frame.revision = revision++;
+        return frame;
+    });
+    EXPECT_EQ(header(get("/image?width=20&format=IMAGE_FORMAT_RAW"), "Eyrie-Revision"),
+              "18364758544493064720");
+    EXPECT_EQ(header(get("/image?width=20"), "Eyrie-Revision"), "18364758544493064721");
+    EXPECT_EQ(text(get("/image?width=20", "application/json"), "revision"), "18364758544493064722");
+}
+
 TEST_F(Rest, PicturesWithoutACameraShowHeightsAsTheyAreExaggerated) {
     coordinator::Status status = frames_.status();
     fabric::GroundGrid grid;

@@ -139,6 +139,27 @@ TEST_P(FrameScenes, ANewSceneIsOpenedByAll) {
     EXPECT_EQ(renderers[0]->opened, (std::vector<std::string>{"first", "second"}));
 }
 
+/// So that parts which are asked for one by one are of one picture.
+TEST_P(FrameScenes, OnlyPicturesOfAnotherSceneHaveAnotherRevision) {
+    const auto renderers = openWith(2);
+    const auto revision = [&](const FrameRequest& request) {
+        const absl::StatusOr<RenderedFrame> frame = pipeline_.renderFrame(request);
+        EXPECT_TRUE(frame.ok()) << frame.status();
+        return frame.ok() ? frame->revision : 0;
+    };
+    const std::uint64_t first = revision(request());
+    FrameRequest part = request();
+    part.camera.eye.x += 1;
+    part.tauPixels = 2;
+    part.part = {3, 4, 10, 5};
+    EXPECT_EQ(revision(part), first);
+    registry_.markDead(ids_[1], "test", Registry::Clock::now());
+    EXPECT_EQ(revision(request()), first) << "whoever draws, and by which compounds";
+    pipeline_.setScene(sceneNamed("second"));
+    awaitReady({renderers[0]});
+    EXPECT_NE(revision(request()), first);
+}
+
 TEST_P(FrameScenes, ARendererThatFindsOtherDataIsRefusedWithTheDifference) {
     const auto renderers = openWith(2);
     auto other = std::make_shared<FakeRenderer>(std::make_shared<LayeredScene>(1));
