@@ -307,10 +307,6 @@ TEST(ActiveConfiguration, HasTheSameOnDisplayHoweverItIsDrawn) {
         ASSERT_TRUE(four.switchLayout("0", layout).ok());
         EXPECT_EQ(four.onDisplay(), one.onDisplay()) << layout;
     }
-    equalizer::Tuning frozen;
-    frozen.isFrozen = true;
-    ASSERT_TRUE(four.tune("2D", frozen).ok());
-    EXPECT_EQ(four.onDisplay(), one.onDisplay());
 }
 
 }  // namespace

@@ -30,6 +30,13 @@ import { canShowVideo } from "./view/video";
 /** Null: by the camera alone. */
 const seenOf = (frame: Frame) => (frame.throughWall ? frame.seen : null);
 
+/** As the server has it, bit for bit. */
+export interface ExactPicture {
+  png: Blob;
+  /** Of what it shows beside the view; pictures with different ones do not belong together. */
+  revision: bigint;
+}
+
 /** A view without its picture for so long is stale. */
 const staleAfter = 2000;
 
@@ -56,8 +63,8 @@ export class Viewer {
   private readonly unwatch: readonly (() => void)[];
   private isClosed = false;
 
-  /** The picture on the canvas as the server's PNG, while it is exact. */
-  private exactPicture: Blob | undefined;
+  /** The picture on the canvas, while it is exact. */
+  private exactPicture: ExactPicture | undefined;
 
   /** What the server notes next may be why what was asked of it came to nothing. */
   private isAsking = false;
@@ -197,7 +204,7 @@ export class Viewer {
   }
 
   /** The exact picture of what is wanted now, or of what is led, once it is on the canvas. */
-  exactNow(): Blob | undefined {
+  exactNow(): ExactPicture | undefined {
     const isNewest = this.sender.isNewest(this.state.numbers.value?.viewSequence);
     return isNewest || this.state.isWatching ? this.exactPicture : undefined;
   }
@@ -381,7 +388,8 @@ export class Viewer {
       inputToDrawnMilliseconds: this.sender.medianLatency(),
       frozen: this.state.look.value.frozen !== null,
     };
-    if (isExact) this.exactPicture = picture;
+    if (isExact && picture !== undefined)
+      this.exactPicture = { png: picture, revision: frame.revision };
     this.state.numbers.set(numbersOf(frame, seen, this.state.numbers.value?.limitedBy ?? ""));
   }
 

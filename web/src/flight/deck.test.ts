@@ -4,6 +4,7 @@ import type { Camera } from "../camera/camera";
 import { defaultLook } from "../look";
 import { Shading } from "../protocol/messages";
 import type { SharedView } from "../share";
+import type { ExactPicture } from "../viewer";
 import type { Stage } from "./deck";
 import { FlightDeck } from "./deck";
 import { withKey } from "./flight";
@@ -35,8 +36,9 @@ class StageOfTest implements Stage {
   moveAlong(camera: Camera): void {
     this.move(camera);
   }
-  exactNow(): Blob | undefined {
-    return this.exact;
+  revision = 1n;
+  exactNow(): ExactPicture | undefined {
+    return this.exact && { png: this.exact, revision: this.revision };
   }
 }
 
@@ -161,6 +163,18 @@ describe("A flight deck", () => {
     });
     await expect(deck.draw(1)).rejects.toThrow("Settings have changed meanwhile");
     end();
+    expect(await deck.draw(1)).toBeInstanceOf(Blob);
+  });
+
+  it("saves no pictures of two scenes", async () => {
+    flightOf(4);
+    stage.exact = new Blob(["a picture"]);
+    const end = deck.activity.watch((activity) => {
+      if (activity.kind === "drawing" && activity.frame === 2) stage.revision += 1n;
+    });
+    await expect(deck.draw(1)).rejects.toThrow("What is shown was changed meanwhile");
+    end();
+    expect(deck.activity.value.kind).toBe("idle");
     expect(await deck.draw(1)).toBeInstanceOf(Blob);
   });
 

@@ -4,6 +4,7 @@ import type { Camera } from "../camera/camera";
 import type { SharedView } from "../share";
 import { Value } from "../state";
 import type { Size } from "../view/size";
+import type { ExactPicture } from "../viewer";
 import { flightJson } from "./file";
 import { fitKeys, offBy } from "./fit";
 import type { Flight, FlightKey } from "./flight";
@@ -29,7 +30,7 @@ export interface Pictures {
   /** The newest view, with its settings and look. */
   sharedView(): SharedView | null;
   /** The picture of the newest view, once it is exact. */
-  exactNow(): Blob | undefined;
+  exactNow(): ExactPicture | undefined;
 }
 
 export type Activity =
@@ -196,7 +197,7 @@ export class FlightDeck {
     throw new Error(`A ZIP file holds ${most} pictures, and these are ${frames}: ${remedy}`);
   }
 
-  /** All that pictures of a flight have in common but their size, as text. */
+  /** All that the page asks of pictures of a flight alike but their size, as text. */
   private settings(): string {
     return JSON.stringify({ ...this.pictures.sharedView(), camera: null });
   }
@@ -212,6 +213,7 @@ export class FlightDeck {
     this.checkFits(frames);
     const size = JSON.stringify(this.pictures.pictureSize);
     let settings: string | undefined;
+    let revision: bigint | undefined;
     const zip = new ZipWriter();
     const mine = (frame: number): Activity => ({ kind: "drawing", frame, frames });
     let activity = mine(0);
@@ -227,8 +229,11 @@ export class FlightDeck {
           throw new Error("The window has changed its size meanwhile: pictures would differ");
         if (this.settings() !== settings)
           throw new Error("Settings have changed meanwhile: pictures would differ");
+        revision ??= picture.revision;
+        if (picture.revision !== revision)
+          throw new Error("What is shown was changed meanwhile: no pictures are saved");
         const name = `${String(i + 1).padStart(5, "0")}.png`;
-        const hasRoom = await zip.add({ name, content: picture });
+        const hasRoom = await zip.add({ name, content: picture.png });
         if (this.activity.value !== activity) return undefined;
         if (!hasRoom) {
           this.tell(`A ZIP file holds 4 GiB: ${i} of ${frames} pictures are saved`);
@@ -244,7 +249,7 @@ export class FlightDeck {
   }
 
   /** Undefined where it is no longer wanted. */
-  private async exact(isWanted: () => boolean): Promise<Blob | undefined> {
+  private async exact(isWanted: () => boolean): Promise<ExactPicture | undefined> {
     const deadline = performance.now() + exactWithin;
     while (performance.now() < deadline) {
       if (!isWanted()) return undefined;

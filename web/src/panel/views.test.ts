@@ -17,7 +17,9 @@ describe("A picture to save", () => {
 
   it("comes once it is exact", async () => {
     let exact: Blob | undefined;
-    const picture = exactPicture(state, { exactNow: () => exact });
+    const picture = exactPicture(state, {
+      exactNow: () => exact && { png: exact, revision: 1n },
+    });
     await vi.advanceTimersByTimeAsync(1000);
     exact = new Blob(["exact"]);
     await vi.advanceTimersByTimeAsync(100);

@@ -75,7 +75,7 @@ export async function exactPicture(
   while (viewer.exactNow() === undefined && isConnected() && performance.now() < deadline)
     await new Promise((resolve) => setTimeout(resolve, 50));
   const picture = viewer.exactNow();
-  if (picture !== undefined) return picture;
+  if (picture !== undefined) return picture.png;
   return isConnected()
     ? "There is no exact picture to save yet"
     : "There is no exact picture to save without a connection to the server";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { describe, expect, it, vi } from "vitest";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { chunk, filtered, PngWriter } from "./png";
 import type { ImageRequest } from "../command";
 import { bandsOf, drawPoster, posterSize, sideBySide } from "./poster";
@@ -113,13 +113,44 @@ describe("a poster", () => {
   });
 });
 
-describe("a poster of a server that is away", () => {
-  it("says so", async () => {
-    vi.stubGlobal("window", { location: { href: "http://127.0.0.1/" } });
+describe("a poster of a server", () => {
+  beforeEach(() => void vi.stubGlobal("window", { location: { href: "http://127.0.0.1/" } }));
+  afterEach(() => void vi.unstubAllGlobals());
+  /** Of two parts: one above the other, and side by side. */
+  const sizes = [
+    { width: 1, height: 16384 },
+    { width: 16384, height: 1 },
+  ];
+  const draw = (size: { width: number; height: number }) =>
+    drawPoster(size as ImageRequest, () => {}, new AbortController().signal);
+
+  /** Answers with parts of these revisions. */
+  function serve(...revisions: string[]): void {
+    vi.stubGlobal("fetch", (_: string, { body }: { body: string }) => {
+      const { part } = JSON.parse(body) as { part: { width: number; height: number } };
+      const headers = { "Eyrie-Tau-Achieved": "0.5", "Eyrie-Revision": revisions.shift() ?? "" };
+      return Promise.resolve(
+        new Response(new Uint8Array(4 * part.width * part.height), { headers }),
+      );
+    });
+  }
+
+  it("is saved where all of it is of one scene", async () => {
+    for (const size of sizes) {
+      serve("7", "7");
+      expect((await draw(size)).error).toBe(0.5);
+    }
+  });
+
+  it("is not where its second part is of another", async () => {
+    for (const size of sizes) {
+      serve("7", "8");
+      await expect(draw(size)).rejects.toThrow("what is shown was changed meanwhile");
+    }
+  });
+
+  it("says that it is away", async () => {
     vi.stubGlobal("fetch", () => Promise.reject(new TypeError("Failed to fetch")));
-    const request = { width: 64, height: 36 } as ImageRequest;
-    const drawn = drawPoster(request, () => {}, new AbortController().signal);
-    await expect(drawn).rejects.toThrow("the server does not answer");
-    vi.unstubAllGlobals();
+    await expect(draw({ width: 64, height: 36 })).rejects.toThrow("the server does not answer");
   });
 });

@@ -50,6 +50,8 @@ interface Drawn {
   rgba: Uint8Array;
   /** Pixels of error. */
   error: number;
+  /** Of what was drawn: parts of one picture have the same. */
+  revision: string | null;
 }
 
 async function draw(request: ImageRequest, part: Part, signal: AbortSignal): Promise<Drawn> {
@@ -66,7 +68,12 @@ async function draw(request: ImageRequest, part: Part, signal: AbortSignal): Pro
   const rgba = new Uint8Array(await response.arrayBuffer());
   if (rgba.length !== 4 * part.width * part.height)
     throw new Error("the server sent a picture of another size");
-  return { rgba, error: Number(response.headers.get("Eyrie-Tau-Achieved") ?? Number.NaN) };
+  const { headers } = response;
+  return {
+    rgba,
+    error: Number(headers.get("Eyrie-Tau-Achieved") ?? Number.NaN),
+    revision: headers.get("Eyrie-Revision"),
+  };
 }
 
 /** Parts of one band, side by side, as whole rows. */
@@ -103,12 +110,16 @@ export async function drawPoster(
   const bands = bandsOf(request);
   const png = new PngWriter(request.width, request.height);
   let error = 0;
+  let revision: string | null | undefined;
   try {
     for (const [i, band] of bands.entries()) {
       tell(i, bands.length);
       const parts = [];
       for (const part of band) {
         const drawn = await draw(request, part, signal);
+        revision ??= drawn.revision;
+        if (drawn.revision !== revision)
+          throw new Error("what is shown was changed meanwhile; nothing is saved");
         error = Math.max(error, drawn.error);
         parts.push({ rgba: drawn.rgba, width: part.width });
       }
