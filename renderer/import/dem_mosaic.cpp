@@ -14,6 +14,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "fabric/status.h"
+#include "renderer/import/degrees_caveat.h"
 #include "renderer/import/dem_order.h"
 #include "renderer/import/dem_warp.h"
 #include "renderer/import/joined_dems.h"
@@ -372,8 +373,12 @@ private:
             caveat_ = lengthCaveat(crs_.get(), inUnits, all.columns, all.rows);
         if (!caveat_.empty())
             notes_.push_back(caveat_);
-        return DemSource{layeredDems(std::move(layers_), reference, all.columns, all.rows),
-                         crs_ ? metricWktOf(crs_.get()) : "", 0, std::move(notes_)};
+        DemSource source;
+        source.posts = layeredDems(std::move(layers_), reference, all.columns, all.rows);
+        source.crsWkt = crs_ ? metricWktOf(crs_.get()) : "";
+        source.notes = std::move(notes_);
+        source.mayBeDegrees = !saysItsUnit(crs_.get()) && mayBeDegrees(source.posts->frame());
+        return source;
     }
 
     std::vector<DemFile> files_;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "fabric/status.h"
+#include "renderer/import/degrees_caveat.h"
 #include "renderer/import/dem_file.h"
 #include "renderer/import/dem_mosaic.h"
 #include "renderer/import/layered_dems.h"
@@ -35,10 +36,12 @@ absl::StatusOr<DemSource> openAsItIs(DemFile file) {
     std::string caveat = lengthCaveat(file.crs.get(), file.reference, columns, rows);
     if (!caveat.empty())
         source.notes.push_back(std::move(caveat));
+    const bool isKnown = !file.isGeoreferenced || saysItsUnit(file.crs.get());
     std::vector<DemLayer> layers(1);
     layers.front().box = {0, 0, columns, rows};
     layers.front().files.push_back(std::move(file));
     source.posts = layeredDems(std::move(layers), reference, columns, rows);
+    source.mayBeDegrees = !isKnown && mayBeDegrees(source.posts->frame());
     return source;
 }
 

@@ -20,6 +20,7 @@ struct DemSource {
     std::uint64_t hash = 0;          ///< of all bytes of all files, in their order
     std::vector<std::string> notes;  ///< what was assumed or changed, for people
     bool isRounded = false;          ///< of some file: DemFile::isRounded
+    bool mayBeDegrees = false;       ///< no CRS says that they are not, and they are not too large
 };
 
 /// Opens the first band of any rasters GDAL reads; `.gz` and `.zip` are looked into. Pixels are

@@ -96,6 +96,11 @@ OGRSpatialReferenceH crsOf(GDALDatasetH raster) {
     return isNamed ? crs : nullptr;
 }
 
+bool saysItsUnit(OGRSpatialReferenceH reference) {
+    return reference != nullptr &&
+           (OSRIsLocal(reference) == 0 || OSRGetLinearUnits(reference, nullptr) != 1);
+}
+
 void cutToOneTurn(OGRSpatialReferenceH crs, Georeference& reference, int& columns) {
     constexpr double kTurn = 360;
     const double pixel = std::abs(reference.perColumn.x);

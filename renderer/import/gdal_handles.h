@@ -77,6 +77,10 @@ bool isSameCrs(OGRSpatialReferenceH a, OGRSpatialReferenceH b);
 /// CRS: GDAL makes an engineering CRS without a name of that, which is nowhere on earth.
 OGRSpatialReferenceH crsOf(GDALDatasetH raster);
 
+/// Whether it says what x and y count: it is of the earth, or in a unit other than the metre, which
+/// engineering CRSs of formats that know no other have. Null does not.
+bool saysItsUnit(OGRSpatialReferenceH reference);
+
 /// Cuts a raster in degrees, which has so many columns, to 360 of them. What goes on repeats its
 /// first ones; and where a raster is wider, be it by a rounding, GDAL's warper knows each longitude
 /// by one name only: of one from 0 it would leave out all that is -180 to 0 elsewhere.

@@ -11,6 +11,7 @@
 
 #include "fabric/partial_file.h"
 #include "fabric/status.h"
+#include "renderer/import/degrees_caveat.h"
 #include "renderer/import/dem_source.h"
 #include "renderer/import/elevation_reading.h"
 #include "renderer/import/imagery_pages.h"
@@ -204,6 +205,9 @@ private:
         }
         ASSIGN_OR_RETURN(const std::uint64_t sizeBytes, writer.commit(index));
         TerrainImportReport report = reportOf(index, postMetres, sizeBytes);
+        if (std::string caveat = degreesCaveat(model_.frame, model_.statistics);
+            source_.mayBeDegrees && !caveat.empty())
+            report.notes.push_back(std::move(caveat));
         for (const auto& notes : {notesOnError(lattice, options_.errorMetres),
                                   notesOnMemory(posts_, imagery_, options_.memoryBytes)})
             report.notes.insert(report.notes.end(), notes.begin(), notes.end());
@@ -285,7 +289,8 @@ absl::StatusOr<TerrainImportReport> importTerrain(const std::vector<std::string>
                                  ? dems.front()
                                  : fmt::format("{} and {} more", dems.front(), dems.size() - 1);
     absl::StatusOr<TerrainImportReport> report = importTerrain(
-        *source.posts, {name, source.crsWkt, source.hash, source.isRounded}, out, options, control);
+        *source.posts, {name, source.crsWkt, source.hash, source.isRounded, source.mayBeDegrees},
+        out, options, control);
     if (absl::IsInvalidArgument(report.status()))  // no data, which the findings may explain
         return explained(report.status(), source.posts->findings());
     RETURN_IF_ERROR(report.status());

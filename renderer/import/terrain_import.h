@@ -59,7 +59,8 @@ struct TerrainSource {
     std::string name;  ///< for messages
     std::string crsWkt;
     std::uint64_t hash = 0;
-    bool isRounded = false;  ///< its posts are to floats
+    bool isRounded = false;     ///< its posts are to floats
+    bool mayBeDegrees = false;  ///< DemSource::mayBeDegrees
 };
 
 /// Makes an .eyt of elevation models, mosaicked as openMosaic says. `out` appears complete or not
