@@ -129,6 +129,13 @@ absl::Status isAnother(const Files& files, const std::string& imported, std::uin
                     fmt::join(files, ", "), imported, hash, kept, nor));
 }
 
+/// For people.
+std::string sizeText(std::uint64_t bytes) {
+    const auto size = static_cast<double>(bytes);
+    return size < 0x1p20 ? fmt::format("{:.1f} KiB", size / 0x1p10)
+                         : fmt::format("{:.1f} MiB", size / 0x1p20);
+}
+
 struct Candidate {
     FoundSource source;
     std::uint64_t neededBytes = 0;
@@ -180,11 +187,11 @@ absl::StatusOr<std::vector<FoundSource>> findSources(const fabric::Scene& scene,
     }
     if (needed > memory.limitBytes)
         return absl::ResourceExhaustedError(fmt::format(
-            "{}: the reference of all that the scene shows takes about {} MiB of memory, {} of it "
-            "for {}, and may use {}; allow more with --reference-memory, or measure fewer "
+            "{}: the reference of all that the scene shows takes about {} of memory, {} of it for "
+            "{}, and may use {}; allow more with --reference-memory, or measure fewer "
             "--reference-frames, a smaller --size or a part of the scene",
-            found.front().files.front(), (needed >> 20) + 1, (memory.framesBytes >> 20) + 1,
-            memory.frames, memory.limitBytes >> 20));
+            found.front().files.front(), sizeText(needed), sizeText(memory.framesBytes),
+            memory.frames, sizeText(memory.limitBytes)));
     return found;
 }
 

@@ -244,7 +244,8 @@ TEST_F(ReferenceSources, OfGltfTakeMemoryForTheirBuffers) {
 TEST_F(ReferenceSources, ThatMemoryCannotHoldAreRefusedWithWhatTheyTake) {
     const absl::Status refused = find({}, 100 << 10).status();
     EXPECT_TRUE(absl::IsResourceExhausted(refused)) << refused;
-    EXPECT_THAT(refused.ToString(), testing::HasSubstr("--reference-memory"));
+    EXPECT_THAT(refused.ToString(), testing::HasSubstr("may use 100.0 KiB; allow more with "
+                                                       "--reference-memory"));
     const auto facts = truth::inspectSource(fabric::ObjectKind::Mesh, {source_});
     ASSERT_TRUE(facts.ok());
     EXPECT_GT(facts->neededBytes, fs::file_size(source_));
@@ -264,7 +265,7 @@ TEST_F(ReferenceSources, AreRefusedWithTheFramesThatTheyLeaveNoMemoryFor) {
     EXPECT_TRUE(withLimit(kFrames + facts->neededBytes).ok());
     const absl::Status refused = withLimit(kFrames + facts->neededBytes - 1);
     EXPECT_TRUE(absl::IsResourceExhausted(refused)) << refused;
-    EXPECT_THAT(refused.ToString(), testing::HasSubstr("701 of it for 24 frames"));
+    EXPECT_THAT(refused.ToString(), testing::HasSubstr("700.0 MiB of it for 24 frames"));
     EXPECT_THAT(refused.ToString(), testing::HasSubstr("--reference-frames"));
 }
 
