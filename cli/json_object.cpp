@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/json_object.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "fabric/json_text.h"
@@ -10,13 +8,9 @@
 namespace eyrie::cli {
 namespace {
 
-/// The shortest text that reads back as the same double.
-std::string shortest(double value) {
-    return std::isfinite(value) ? fmt::format("{}", value) : "null";
-}
-
 std::string triple(const fabric::Vec3& v) {
-    return fmt::format("[{}, {}, {}]", shortest(v.x), shortest(v.y), shortest(v.z));
+    return fmt::format("[{}, {}, {}]", fabric::numberJson(v.x), fabric::numberJson(v.y),
+                       fabric::numberJson(v.z));
 }
 
 }  // namespace
@@ -31,7 +25,7 @@ JsonObject& JsonObject::text(std::string_view name, std::string_view value) {
 }
 
 JsonObject& JsonObject::number(std::string_view name, double value) {
-    return raw(name, shortest(value));
+    return raw(name, fabric::numberJson(value));
 }
 
 JsonObject& JsonObject::count(std::string_view name, std::uint64_t value) {
@@ -44,7 +38,8 @@ JsonObject& JsonObject::flag(std::string_view name, bool value) {
 
 JsonObject& JsonObject::numbers(std::string_view name, std::span<const double> values) {
     std::string list;
-    for (const double value : values) list += (list.empty() ? "" : ", ") + shortest(value);
+    for (const double value : values)
+        list += (list.empty() ? "" : ", ") + fabric::numberJson(value);
     return raw(name, "[" + list + "]");
 }
 

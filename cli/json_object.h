@@ -11,8 +11,8 @@
 
 namespace eyrie::cli {
 
-/// Writes one JSON object, fields in the order they are added. JSON has no infinity and no NaN:
-/// such numbers become null.
+/// Writes one JSON object, fields in the order they are added, numbers as fabric::numberJson has
+/// them: an error without a bound is "Infinity".
 class JsonObject {
 public:
     JsonObject& text(std::string_view name, std::string_view value);

@@ -76,7 +76,7 @@ def main():
     for run in json.loads(ask(server, "GET", report))["runs"]:
         measured = f", measured {run['errorPx']['max']:.3g}" if "errorPx" in run else ""
         print(f"{run['label']}: {run['frameMs']['p50']:.1f} ms a frame, promised error at most "
-              f"{run['tauAchievedMax']:.3g} pixels{measured}")
+              f"{float(run['tauAchievedMax']):.3g} pixels{measured}")
     with open(file, "wb") as page:
         page.write(ask(server, "GET", report + "?file=REPORT_FILE_PAGE"))
 

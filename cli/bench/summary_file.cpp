@@ -45,9 +45,9 @@ public:
         expect(Value::kStringValue, "a text");
         return access::printableUtf8(value_->string_value());  // whoever wrote the file
     }
-    /// At least 0. JSON has no infinity: null stands for it.
+    /// At least 0. What is infinite is a string, or null, which earlier reports have for it.
     double number() const {
-        if (value_ != &none() && value_->has_null_value())
+        if (value_ != &none() && (value_->has_null_value() || value_->string_value() == "Infinity"))
             return std::numeric_limits<double>::infinity();
         expect(Value::kNumberValue, "a number");
         if (!(value_->number_value() >= 0))

@@ -2,6 +2,7 @@
 #include "fabric/json_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include <fmt/format.h>
@@ -38,6 +39,14 @@ std::string quotedJson(std::string_view text) {
 }
 
 /// In place: nothing becomes longer, and what has pictures or traces in it is large.
+std::string numberJson(double value) {
+    if (std::isnan(value))
+        return "null";
+    if (std::isinf(value))
+        return value > 0 ? "\"Infinity\"" : "\"-Infinity\"";
+    return fmt::format("{}", value);
+}
+
 void joinNumbers(std::string& json) {
     std::size_t kept = 0;
     std::size_t end = 0;  // of the list that is being joined

@@ -2,7 +2,6 @@
 #include "wire/json.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
@@ -13,6 +12,7 @@
 #include "eyrie/v1/flight.pb.h"
 #include "eyrie/v1/look.pb.h"
 #include "eyrie/v1/scene.pb.h"
+#include "fabric/json_text.h"
 #include "fabric/status.h"
 #include "wire/camera.h"
 #include "wire/flight.h"
@@ -22,6 +22,7 @@
 namespace eyrie::wire {
 namespace {
 
+using fabric::numberJson;
 using google::protobuf::Descriptor;
 
 /// The message that has the last field of `path`, such as "keys[2].camera.eye".
@@ -73,12 +74,6 @@ std::string quoted(const std::string& text) {
     return print(value, {});
 }
 
-/// fmt writes the shortest text that reads back as the same double, in JSON's own form.
-std::string number(double value) {
-    constexpr double kLargest = std::numeric_limits<double>::max();
-    return fmt::format("{}", std::clamp(value, -kLargest, kLargest));
-}
-
 std::string deviceJson(const fabric::DeviceInfo& device) {
     return fmt::format(
         R"({{"vendor": {}, "device": {}, "software": {}, "driver": {}, "platform": {}}})",
@@ -90,9 +85,10 @@ std::string millisecondsJson(const fabric::StageMilliseconds& milliseconds) {
     return fmt::format(
         R"({{"cull": {}, "draw": {}, "vertices": {}, "fill": {}, "readback": {}, "encode": {}, )"
         R"("total": {}}})",
-        number(milliseconds.cull), number(milliseconds.draw), number(milliseconds.vertices),
-        number(milliseconds.fill), number(milliseconds.readback), number(milliseconds.encode),
-        number(milliseconds.total));
+        numberJson(milliseconds.cull), numberJson(milliseconds.draw),
+        numberJson(milliseconds.vertices), numberJson(milliseconds.fill),
+        numberJson(milliseconds.readback), numberJson(milliseconds.encode),
+        numberJson(milliseconds.total));
 }
 
 }  // namespace
@@ -161,13 +157,13 @@ std::string statisticsJson(const fabric::FrameStatistics& statistics, int width,
   "renderer": {}
 }}
 )",
-        width, height, number(statistics.tauAskedPixels), number(statistics.tauAchievedPixels),
-        statistics.complete, statistics.triangles, statistics.points, statistics.nodes,
-        statistics.nodesHidden, statistics.pagesLoaded, statistics.bytesLoaded,
-        statistics.pagesMissing, statistics.pagesFailed, statistics.tilesDecodedOnGpu,
-        number(statistics.normalErrorDegrees), number(statistics.normalErrorMeanDegrees),
-        millisecondsJson(statistics.milliseconds), fabric::limitingStage(statistics.milliseconds),
-        deviceJson(device));
+        width, height, numberJson(statistics.tauAskedPixels),
+        numberJson(statistics.tauAchievedPixels), statistics.complete, statistics.triangles,
+        statistics.points, statistics.nodes, statistics.nodesHidden, statistics.pagesLoaded,
+        statistics.bytesLoaded, statistics.pagesMissing, statistics.pagesFailed,
+        statistics.tilesDecodedOnGpu, numberJson(statistics.normalErrorDegrees),
+        numberJson(statistics.normalErrorMeanDegrees), millisecondsJson(statistics.milliseconds),
+        fabric::limitingStage(statistics.milliseconds), deviceJson(device));
 }
 
 }  // namespace eyrie::wire

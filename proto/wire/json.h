@@ -39,8 +39,8 @@ absl::StatusOr<fabric::Look> lookFromJson(std::string_view text, std::string_vie
 /// it.
 std::string toJson(const google::protobuf::Message& message);
 
-/// What `eyrie render --stats` writes: one object of plain JSON numbers, counts included. JSON has
-/// no infinity, so a tauAchieved without bound becomes the largest finite double.
+/// What `eyrie render --stats` writes: one object of plain JSON numbers, counts included. A
+/// tauAchieved without bound is "Infinity", as toJson has it.
 std::string statisticsJson(const fabric::FrameStatistics& statistics, int width, int height,
                            const fabric::DeviceInfo& device);
 

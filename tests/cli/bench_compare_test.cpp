@@ -253,6 +253,19 @@ TEST_F(CompareReports, WhatIsZeroOrWithoutABoundIsJudgedByTheOrderOfPasses) {
     EXPECT_EQ(verdictOf(*points, "points, mean"), Verdict::More);
 }
 
+TEST_F(CompareReports, ErrorsWithoutABoundAreReadAsEarlierReportsHaveThem) {
+    const std::string now = summaryJson(reportPromising(std::numeric_limits<double>::infinity()));
+    std::string before = now;
+    for (std::size_t at = 0; (at = before.find("\"Infinity\"", at)) != std::string::npos;)
+        before.replace(at, 10, "null");
+    ASSERT_NE(before, now);
+    const auto a = readReport(folder_.write("before.json", before));
+    const auto b = readReport(folder_.write("now.json", now));
+    ASSERT_TRUE(a.ok() && b.ok()) << a.status() << b.status();
+    EXPECT_EQ(a->runs.at(0).tauAchievedMax, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(b->runs.at(0).tauAchievedMax, std::numeric_limits<double>::infinity());
+}
+
 TEST_F(CompareReports, PassesOfBeforeErrorsWereToldOfEachAreNotJudgedByThem) {
     std::string old = summaryJson(reportPromising(0.9));
     for (std::size_t at = 0; (at = old.find("\"tauP95\"", at)) != std::string::npos; ++at)

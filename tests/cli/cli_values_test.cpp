@@ -103,10 +103,10 @@ TEST(JsonObject, EscapesWhatJsonDoesNotAllowInText) {
               "{\"t\": \"say \\\"hi\\\"\\\\\\u000a\\u0001 å\"}");
 }
 
-TEST(JsonObject, WritesNullForNumbersThatJsonDoesNotHave) {
+TEST(JsonObject, WritesInfinityAsProtobufDoesAndNullForNone) {
     const double infinity = std::numeric_limits<double>::infinity();
     EXPECT_EQ(JsonObject().number("a", infinity).number("b", -infinity / infinity).str(),
-              R"({"a": null, "b": null})");
+              R"({"a": "Infinity", "b": null})");
 }
 
 TEST(JsonObject, WritesDoublesThatReadBackTheSame) {

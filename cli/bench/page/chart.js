@@ -2,6 +2,11 @@
 // What all charts are drawn with: numbers, scales, marks and words for a point.
 const byId = (id) => document.getElementById(id);
 
+/** What the program wrote, with null for an error without a bound, which is "Infinity" there. */
+function readable(data) {
+  return JSON.parse(JSON.stringify(data), (_, value) => (value === "Infinity" ? null : value));
+}
+
 /** Three digits, or all of a large number; "∞" for none. */
 function number(value, digits = 3) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "∞";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fabric/json_text.h"
 
+#include <limits>
 #include <string_view>
 
 #include <gtest/gtest.h>
@@ -20,6 +21,15 @@ TEST(QuotedJson, IsUtf8WhateverItQuotes) {
     EXPECT_EQ(quotedJson("\xc3"), "\"?\"");
     EXPECT_EQ(quotedJson("\xed\xa0\x80"), "\"???\"") << "half of a pair";
     EXPECT_EQ(quotedJson("\xc0\xaf"), "\"??\"") << "too long";
+}
+
+TEST(NumberJson, IsTheShortestThatReadsBackOrAString) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(numberJson(0.1), "0.1");
+    EXPECT_EQ(numberJson(std::numeric_limits<double>::max()), "1.7976931348623157e+308");
+    EXPECT_EQ(numberJson(kInfinity), "\"Infinity\"");
+    EXPECT_EQ(numberJson(-kInfinity), "\"-Infinity\"");
+    EXPECT_EQ(numberJson(std::numeric_limits<double>::quiet_NaN()), "null");
 }
 
 TEST(JoinNumbers, PutsListsOfNumbersOnOneLineAndLeavesTheRest) {
