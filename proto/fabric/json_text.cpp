@@ -38,7 +38,6 @@ std::string quotedJson(std::string_view text) {
     return json + '"';
 }
 
-/// In place: nothing becomes longer, and what has pictures or traces in it is large.
 std::string numberJson(double value) {
     if (std::isnan(value))
         return "null";
@@ -47,6 +46,7 @@ std::string numberJson(double value) {
     return fmt::format("{}", value);
 }
 
+/// In place: nothing becomes longer, and what has pictures or traces in it is large.
 void joinNumbers(std::string& json) {
     std::size_t kept = 0;
     std::size_t end = 0;  // of the list that is being joined
