@@ -2,7 +2,6 @@
 #include "coordinator/compound/needs.h"
 
 #include <algorithm>
-#include <ranges>
 #include <utility>
 
 namespace eyrie::compound {
@@ -125,9 +124,9 @@ void dropDraws(Plan& plan) {
 void keepWhatIsNeeded(Plan& plan) {
     Backwards backwards(plan);
     std::vector<Step> kept;
-    for (Step& step : std::views::reverse(plan.steps))
-        if (std::visit(backwards, step))
-            kept.push_back(std::move(step));
+    for (auto step = plan.steps.rbegin(); step != plan.steps.rend(); ++step)
+        if (std::visit(backwards, *step))
+            kept.push_back(std::move(*step));
     std::ranges::reverse(kept);
     plan.steps = std::move(kept);
     dropDraws(plan);

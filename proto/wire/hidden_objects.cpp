@@ -20,8 +20,8 @@ absl::StatusOr<fabric::HiddenObjects> hiddenObjects(
                                                       fabric::kMaxHiddenObjects));
     fabric::HiddenObjects hidden{{numbers.begin(), numbers.end()}};
     std::ranges::sort(hidden.positions);
-    const auto repeated = std::ranges::unique(hidden.positions);
-    hidden.positions.erase(repeated.begin(), repeated.end());
+    hidden.positions.erase(std::unique(hidden.positions.begin(), hidden.positions.end()),
+                           hidden.positions.end());
     if (!hidden.positions.empty() && hidden.positions.front() < 0)
         return absl::InvalidArgumentError(fmt::format("{} has object {}; positions count from 0",
                                                       field, hidden.positions.front()));

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/draw/batches.h"
 
-#include <ranges>
-
 namespace eyrie::draw {
 
 void Batches::begin(bool isWatched) {
@@ -23,9 +21,9 @@ void Batches::add(std::uint64_t triangles) {
 
 void Batches::awaitMost() {
     glFlush();
-    for (const Batch& batch : batches_ | std::views::reverse)
-        if (triangles_ - batch.end >= triangles_ / kLeftOf) {
-            batch.fence.await();
+    for (auto batch = batches_.rbegin(); batch != batches_.rend(); ++batch)
+        if (triangles_ - batch->end >= triangles_ / kLeftOf) {
+            batch->fence.await();
             break;
         }
     batches_.clear();

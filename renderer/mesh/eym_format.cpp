@@ -166,8 +166,8 @@ absl::Status EymFile::readLights() {
 }
 
 std::span<const PointRange> EymFile::pointRanges(std::uint32_t node) const {
-    const auto range = std::ranges::equal_range(pointRanges_, node, {}, &PointRange::node);
-    return {range.begin(), range.end()};
+    return {std::ranges::lower_bound(pointRanges_, node, {}, &PointRange::node),
+            std::ranges::upper_bound(pointRanges_, node, {}, &PointRange::node)};
 }
 
 std::vector<fabric::Box> EymFile::lids() const {
