@@ -111,7 +111,8 @@ TEST_F(Rest, EqualizersAreFrozenAndSwitchedOff) {
 }
 
 TEST_F(Rest, ScenesThatWereAnsweredCanBeShownAgain) {
-    api_->begin(frames_.status().scene);
+    const fabric::Scene shown = frames_.status().scene;
+    api_->begin(shown, shown);
     std::ofstream(folder_.path("data/other.eyt")) << "x";
     const RestAnswer scene = get("/scene");
     ASSERT_EQ(scene.status, 200);
@@ -129,7 +130,7 @@ TEST_F(Rest, AddressesInScenesAreWholeForThoseAloneWhoMayShowThemAgain) {
     const std::string address = "https://joe:sekret@host/a.eyt?sig=S";
     fabric::Scene scene;
     scene.objects.push_back({"a", fabric::ObjectKind::Terrain, address});
-    api_->begin(scene);
+    api_->begin(scene, scene);
     const auto asked = [&](const std::string& method, access::Role role) {
         RestRequest request{method, "/scene"};
         request.role = role;

@@ -52,7 +52,7 @@ TEST_F(Rest, AddressesInScenesAreWholeOverGrpcForThoseAloneWhoMayShowThemAgain) 
     const std::string control = "control-0123456789abcdef0123456789";
     fabric::Scene scene;
     scene.objects.push_back({"a", fabric::ObjectKind::Terrain, address});
-    api_->begin(scene);
+    api_->begin(scene, scene);
     wire::Security security;
     security.gate = std::make_shared<access::Gate>(
         *access::Tokens::parse("view " + view + "\ncontrol " + control + "\n", "t"));
