@@ -10,6 +10,7 @@
 
 #include <google/protobuf/struct.pb.h>
 #include <google/protobuf/util/json_util.h>
+#include <spdlog/spdlog.h>
 
 #include "access/data_folder.h"
 #include "coordinator/api/api.h"
@@ -62,7 +63,11 @@ private:
 /// A coordinator's API over a folder with a file and a flight in it, and programs that do nothing.
 class Server {
 public:
-    Server() { folder_.write("hill.ply", "ply\n"); }
+    Server() {
+        // Quiet, and made before the server, whose last operation may end, and be told, after main.
+        spdlog::set_level(spdlog::level::off);
+        folder_.write("hill.ply", "ply\n");
+    }
 
     api::RestAnswer answer(const api::RestRequest& request) const {
         return api_.rest().answer(request);

@@ -102,15 +102,9 @@ absl::Status checkContentType(const RestRequest& request) {
 
 /// Calls that something comes of more than once have such a field.
 absl::Status setRequestId(const std::string& key, Message& message) {
-    const auto* const field = message.GetDescriptor()->FindFieldByName("request_id");
-    if (key.empty() || field == nullptr)
-        return absl::OkStatus();
-    const std::string given = message.GetReflection()->GetString(message, field);
-    if (!given.empty() && given != key)
-        return absl::InvalidArgumentError(
-            "request_id is not what Idempotency-Key says; give one of them");
-    message.GetReflection()->SetString(&message, field, key);
-    return absl::OkStatus();
+    constexpr const char* kField = "request_id";
+    const bool isMeant = message.GetDescriptor()->FindFieldByName(kField) != nullptr;
+    return key.empty() || !isMeant ? absl::OkStatus() : setField(kField, key, message);
 }
 
 absl::Status read(const RestRequest& request, const FoundRoute& found, Message& message) {

@@ -199,6 +199,10 @@ TEST_F(RestData, ImportsOnceForOneKey) {
     EXPECT_EQ(commands_.size(), 1U);
     EXPECT_EQ(ask("POST", "/imports", import(R"(,"replace":true)"), "key").status, 409);
     EXPECT_EQ(ask("POST", "/imports", import(R"(,"requestId":"other")"), "key").status, 400);
+    const RestAnswer ofBytes = ask("POST", "/imports", import(), "key\xff");
+    EXPECT_EQ(ofBytes.status, 400);
+    EXPECT_THAT(member(ofBytes, "detail"),
+                HasSubstr("requestId is 'key\\xff', which is not UTF-8"));
 }
 
 TEST_F(RestData, ReplacesNothingUnlessToldTo) {
