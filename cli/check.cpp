@@ -101,11 +101,12 @@ void addCheck(CLI::App& app, Run& run) {
     command->add_flag("--quiet", options->quiet, "Only errors, warnings and notes");
     command->footer(
         "Prints resources, destination channels, and each compound with all that it inherits: its\n"
-        "tasks, its share of the picture, and what its eyes see. Errors and warnings come with "
-        "line\n"
-        "and column or, of JSON, with the field; with an error the exit status is 2.\n\n"
-        "Examples:\n  eyrie check cave.eqc\n  eyrie check cave.eqc --renderers 4\n  eyrie check "
-        "cave.eqc --json\n"
+        "tasks, its share of the picture, and what its eyes see. Errors and warnings come with\n"
+        "line and column or, of JSON, with the field; with an error the exit status is 2.\n\n"
+        "Examples:\n"
+        "  eyrie check cave.eqc\n"
+        "  eyrie check cave.eqc --renderers 4\n"
+        "  eyrie check cave.eqc --json\n"
         "  eyrie check cave.eqc --convert cave.json");
     command->callback([options, &run] { run = [options] { return checkFile(*options); }; });
 }

@@ -110,9 +110,8 @@ void addCoordinator(CLI::App& app, Run& run) {
         "  eyrie coordinator --listen 0.0.0.0:8080 --grpc 0.0.0.0:9090 \\\n"
         "      --token-file tokens scene.json\n"
         "then `eyrie renderer --coordinator HOST:9090 --listen 0.0.0.0:0 --token-file tokens` on\n"
-        "every machine that draws. With --tls-cert, --tls-key and --tls-ca on all of them they "
-        "are\n"
-        "encrypted and show each other certificates: docs/security.md.");
+        "every machine that draws. With --tls-cert, --tls-key and --tls-ca on all of them they\n"
+        "are encrypted and show each other certificates: docs/security.md.");
     command->callback([options, &run] { run = [options] { return coordinate(*options); }; });
 }
 

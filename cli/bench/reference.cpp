@@ -157,7 +157,9 @@ void addReferenceOptions(CLI::App& command, ReferenceOptions& options) {
     CLI::Option* const reference = command.add_flag(
         "--reference", options.isAsked,
         "Measure errors, too: hold frames against the full-resolution source by rays in double "
-        "precision, and compare with uniform decimation");
+        "precision, and compare with uniform decimation. It judges what the camera itself sees, "
+        "so it goes with --compound, but not with --config, --eye, --stereo, --canvas and "
+        "--segment");
     command
         .add_option("--reference-frames", options.frames,
                     "How many of a flight's frames, one of each equal part of it")

@@ -138,12 +138,11 @@ void addImportMesh(CLI::App& parent, Run& run) {
                      "files of strangers, and what imports by the API have")
         ->type_name("FOLDER");
     command->footer(
-        "By parts, what does not fit --memory goes to files without a name beside the output: "
-        "about\n"
-        "150 bytes a triangle, gone when the import ends or is stopped. The .eym is the same for\n"
-        "closed surfaces, and of others draws the same within the same bounds; textures are left\n"
-        "out, which is said. Faces must be triangles then, and --orient needs all of a mesh at "
-        "once.\n"
+        "By parts, what does not fit --memory goes to files without a name beside the output:\n"
+        "about 150 bytes a triangle, gone when the import ends or is stopped. The .eym is the\n"
+        "same for closed surfaces, and of others draws the same within the same bounds; textures\n"
+        "are left out, which is said. Faces must be triangles then, and --orient needs all of a\n"
+        "mesh at once.\n"
         "Files other than PLY are read as a whole, and refused where that, or their textures,\n"
         "would take more.\n"
         "Examples:\n"

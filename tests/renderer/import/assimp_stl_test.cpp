@@ -78,12 +78,19 @@ TEST(AssimpReader, SaysHowLongABinaryStlOughtToBe) {
     }
 }
 
-/// The first is red, and the second, without the highest bit, has no colour.
-TEST(AssimpReader, HasFacetsOfAnStlWithoutAColourOpaque) {
-    const test::TemporaryFolder folder;
+/// A binary STL of two facets, each with its corners at 0 0 0, 2 0 0 and 0 2 0, and its colour in
+/// the last two of its 50 bytes.
+std::string twoFacets() {
     std::string file(84 + 2 * 50, '\0');
     file[80] = 2;
     for (const std::size_t facet : {84U, 134U}) file[facet + 26] = file[facet + 40] = '\x40';
+    return file;
+}
+
+/// The first is red, and the second, without the highest bit, has no colour.
+TEST(AssimpReader, HasFacetsOfAnStlWithoutAColourOpaque) {
+    const test::TemporaryFolder folder;
+    std::string file = twoFacets();
     file[84 + 49] = '\xFC';
     test::writeFile(folder.file("m.stl"), file);
     const auto mesh = readWithAssimp(folder.file("m.stl"));
@@ -99,11 +106,9 @@ TEST(AssimpReader, HasFacetsOfAnStlWithoutAColourOpaque) {
 TEST(AssimpReader, TakesColoursOfAnStlAsMaterialiseMeansThem) {
     const test::TemporaryFolder folder;
     for (const bool isMeshLab : {false, true}) {
-        std::string file(84 + 2 * 50, '\0');
+        std::string file = twoFacets();
         file.replace(0, 6, "COLOR=");
         file[7] = file[9] = '\xFF';
-        file[80] = 2;
-        for (const std::size_t facet : {84U, 134U}) file[facet + 26] = file[facet + 40] = '\x40';
         file[84 + 48] = 31;
         file[isMeshLab ? 84 + 49 : 134 + 49] = '\x80';
         test::writeFile(folder.file("m.stl"), file);
