@@ -25,6 +25,7 @@
 #include "cli/options/completed_line.h"
 #include "cli/options/options_file.h"
 #include "cli/options/print_config.h"
+#include "cli/options/unplaced_word.h"
 #include "fabric/version.h"
 
 namespace {
@@ -63,22 +64,16 @@ void declare(CLI::App& app, eyrie::cli::Run& run, eyrie::cli::CommonOptions& com
 /// subcommand even where it is one too many that it does not know.
 void explain(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::App* command = &app;
-    std::string parents;
-    while (!command->get_subcommands().empty()) {
-        parents += command->get_name() + " ";
-        command = command->get_subcommands().front();
-    }
-    const std::string name = parents + command->get_name();
-    const std::vector<std::string> unknown = app.remaining(true);
-    if (!unknown.empty())
-        fmt::print(stderr, "eyrie: '{}' is nothing that {} knows\n", unknown.front(), name);
-    else
-        fmt::print(stderr, "eyrie: {}\n", error.what());
+    while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+    const std::string name = eyrie::cli::nameOfCommand(app);
+    const std::string unplaced = eyrie::cli::aboutUnplacedWord(app);
+    fmt::print(stderr, "eyrie: {}\n", unplaced.empty() ? error.what() : unplaced);
     const bool lacksCommand = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr &&
                               command->get_require_subcommand_min() > 0;
+    const std::size_t parents = name.rfind(' ');
     if (lacksCommand)
         fmt::print(stderr, "{}",
-                   command->help(parents.substr(0, parents.find_last_not_of(' ') + 1)));
+                   command->help(parents == std::string::npos ? "" : name.substr(0, parents)));
     else
         fmt::print(stderr, "`{} --help` explains it\n", name);
 }

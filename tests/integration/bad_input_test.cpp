@@ -321,7 +321,10 @@ TEST_F(BadInput, UnknownCommandsAndOptionsAreRefused) {
     expectRefused({"import"}, {"mesh", "terrain"});
     expectRefused({"import", "cloud", "x"}, {"cloud"});
     expectRefused({"info"}, {"file"});
-    expectRefused({"info", good("ball.eym"), "--colour"}, {"--colour"});
+    expectRefused({"info", good("ball.eym"), "--jason"},
+                  {"'--jason' is nothing that eyrie info knows, did you mean '--json'?"});
+    expectRefused({"--json", "info", good("ball.eym")},
+                  {"'--json' stands before the command; write `eyrie info --json ...`"});
     expectRefused({"serve", good("ball.eym"), "--listen", "nowhere"}, {"--listen", "nowhere"});
     expectRefused({"serve", good("ball.eym"), "--listen", "127.0.0.1:99999"},
                   {"--listen", "99999"});
