@@ -60,13 +60,13 @@ std::vector<NamedPicture> allPictures(const config::Configuration& configuration
             while (!names.insert(name).second) name += "_";
             const coordinator::Shown shown{
                 config::positionName(i), config::positionName(j), {}, {}};
-            if (eyes.cyclop)
-                pictures.push_back({name, shown});
-            for (const auto& [isShown, eye, word] : {std::tuple(eyes.left, Eye::Left, "left"),
-                                                     std::tuple(eyes.right, Eye::Right, "right")}) {
+            for (const auto& [isShown, eye, word] :
+                 {std::tuple(eyes.cyclop, Eye::Cyclop, ""),
+                  std::tuple(eyes.left, Eye::Left, ".left"),
+                  std::tuple(eyes.right, Eye::Right, ".right")}) {
                 if (!isShown)
                     continue;
-                pictures.push_back({fmt::format("{}.{}", name, word), shown});
+                pictures.push_back({name + word, shown});
                 pictures.back().shown.eye = eye;
             }
         }

@@ -80,12 +80,12 @@ absl::Status isHere(const std::string& source, fabric::ObjectKind kind) {
         source));
 }
 
-/// Here nothing says how much memory an import may take.
+/// Here nothing says how much memory an import may take: behind advice to allow more.
 absl::Status withRemedy(const absl::Status& status) {
-    if (!absl::IsResourceExhausted(status))
+    const std::string message(status.message());
+    if (!message.ends_with("allow more memory"))
         return status;
-    return absl::ResourceExhaustedError(fmt::format(
-        "{} (`eyrie import mesh --memory` sets how much)", std::string(status.message())));
+    return {status.code(), fmt::format("{} (`eyrie import mesh --memory` sets how much)", message)};
 }
 
 /// Whether the file at `path`, which importName has named, is what its name says, as far as it can

@@ -33,7 +33,7 @@ void logWhoShows(const ShownData& data) {
             "there is nothing to show, and programs cannot name anything: name data, or --data "
             "DIR");
     else
-        spdlog::info("no data is named: what programs set of {} is shown", data.folder);
+        spdlog::info("no data is named: programs set what is shown, of {}", data.folder);
 }
 
 }  // namespace eyrie::cli

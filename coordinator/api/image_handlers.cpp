@@ -155,11 +155,18 @@ std::string upright(const std::vector<Pixel>& pixels, const fabric::PixelViewpor
     return bytes;
 }
 
-absl::StatusOr<std::string> floatMap(const fabric::Image& image) {
-    if (!image.hasDepth())
-        return absl::FailedPreconditionError(
-            "format is IMAGE_FORMAT_DEPTH, and what is shown has no depths, as of two eyes in one "
-            "picture; ask for colours or for one eye");
+/// Two eyes in one picture have no depths; nor does a configuration that shows them so.
+absl::Status checkDepth(const fabric::Image& image, const v1::RenderImageRequest& request) {
+    const bool isMap = request.format() == v1::IMAGE_FORMAT_DEPTH;
+    if (image.hasDepth() || (!isMap && !request.with_depth()))
+        return absl::OkStatus();
+    return absl::FailedPreconditionError(fmt::format(
+        "{}, and what is shown has no depths, as of two eyes in one picture; ask for colours or "
+        "for one eye",
+        isMap ? "format is IMAGE_FORMAT_DEPTH" : "with_depth is set"));
+}
+
+std::string floatMap(const fabric::Image& image) {
     std::string map = fabric::floatMapHead(image.area.width, image.area.height);
     const std::vector<float> metres = fabric::depthMetres(image);
     map.append(reinterpret_cast<const char*>(metres.data()), metres.size() * sizeof(float));
@@ -220,13 +227,14 @@ absl::StatusOr<v1::RenderImageResponse> Painter::render(const v1::RenderImageReq
         return absl::CancelledError("the caller has gone");
     statistics_.drawn("", frame);
     RETURN_IF_ERROR(checkSeen(frame, asked));
+    RETURN_IF_ERROR(checkDepth(frame.image, request));
     v1::RenderImageResponse response;
     ASSIGN_OR_RETURN(*response.mutable_image(), encoded(frame.image, request));
     response.set_format(request.format() == v1::IMAGE_FORMAT_UNSPECIFIED ? v1::IMAGE_FORMAT_PNG
                                                                          : request.format());
     response.set_width(frame.image.area.width);
     response.set_height(frame.image.area.height);
-    if (request.with_depth() && frame.image.hasDepth())
+    if (request.with_depth())
         *response.mutable_depth() = upright(fabric::depthMetres(frame.image), frame.image.area);
     *response.mutable_statistics() =
         stream::statisticsMessage(frame, frame.image.area.width, frame.image.area.height);

@@ -64,8 +64,8 @@ absl::StatusOr<v1::PickPointResponse> pickPoint(coordinator::FrameSource& frames
     ASSIGN_OR_RETURN(coordinator::Shown shown, stream::shownFromMessage(message.shown()));
     picture.shown = {std::move(shown)};
     using compound::Stereo;
-    const Stereo stereo = picture.shown.front().stereo;
-    if (stereo == Stereo::SideBySide || stereo == Stereo::TopBottom)
+    const coordinator::Shown& seenBy = picture.shown.front();
+    if (!seenBy.eye && (seenBy.stereo == Stereo::SideBySide || seenBy.stereo == Stereo::TopBottom))
         return absl::InvalidArgumentError(
             "shown.stereo puts two pictures into one of another size; name the eye, and pick in "
             "its picture");

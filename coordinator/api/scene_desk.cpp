@@ -31,8 +31,27 @@ absl::Status atObject(int index, const absl::Status& status) {
     return fabric::withContext(status, fmt::format("scene.objects[{}]", index));
 }
 
+/// Of a file that is none of `kind`.
+absl::Status namedAsOther(const std::string& name, ObjectKind kind) {
+    const bool isTerrain = kind == ObjectKind::Terrain;
+    return absl::InvalidArgumentError(fmt::format("'{}' is a {}, and named as a {}", name,
+                                                  isTerrain ? "mesh" : "terrain",
+                                                  isTerrain ? "terrain" : "mesh"));
+}
+
 std::string& pathIn(v1::SceneObject& object) {
     return object.has_terrain() ? *object.mutable_terrain() : *object.mutable_mesh();
+}
+
+/// Of a file below `folder`, whose path has no links; empty where it lies elsewhere. The command
+/// line may have named it by way of links.
+std::string nameBelow(const std::filesystem::path& folder, const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::path name = path.lexically_relative(folder);
+    if (path.is_absolute() && !name.empty() && *name.begin() == "..")
+        name = (std::filesystem::weakly_canonical(path.parent_path(), error) / path.filename())
+                   .lexically_relative(folder);
+    return name.empty() || *name.begin() == ".." ? "" : name.string();
 }
 
 v1::KeptScene keptScene(const fabric::Scene& asNamed, v1::Scene scene) {
@@ -60,6 +79,7 @@ void SceneDesk::begin(fabric::Scene scene, fabric::Scene asNamed) {
         for (const fabric::SceneObject& object : scene.objects)
             allowed_.emplace(object.path, object.kind);
         commandLine_ = scene;
+        asTold_ = wire::fromMessage(wire::toMessage(scene)).value_or(scene);
         asNamed_ = asNamed;
     }
     const bool hasKept = state_ != nullptr && state_->scene().has_scene();
@@ -106,10 +126,8 @@ v1::Scene SceneDesk::named(const fabric::Scene& scene) const {
         std::string& path = pathIn(object);
         if (!folder_)
             continue;
-        const std::filesystem::path name =
-            std::filesystem::path(path).lexically_relative(folder_->path());
-        if (!name.empty() && *name.begin() != "..")
-            path = name.string();
+        if (const std::string name = nameBelow(folder_->path(), path); !name.empty())
+            path = name;
     }
     return message;
 }
@@ -121,9 +139,7 @@ absl::StatusOr<std::string> SceneDesk::pathOf(const std::string& name, ObjectKin
         if (allowed_.contains({name, kind}))
             return name;
         if (allowed_.contains({name, isTerrain ? ObjectKind::Mesh : ObjectKind::Terrain}))
-            return absl::InvalidArgumentError(fmt::format("'{}' is a {}, and named as a {}", name,
-                                                          isTerrain ? "mesh" : "terrain",
-                                                          isTerrain ? "terrain" : "mesh"));
+            return namedAsOther(name, kind);
     }
     if (!folder_)
         return absl::FailedPreconditionError(
@@ -131,6 +147,8 @@ absl::StatusOr<std::string> SceneDesk::pathOf(const std::string& name, ObjectKin
             "--data DIR");
     ASSIGN_OR_RETURN(const std::filesystem::path path, folder_->existing(name));
     const char* const ending = isTerrain ? ".eyt" : ".eym";
+    if (path.extension() == (isTerrain ? ".eym" : ".eyt"))
+        return namedAsOther(name, kind);
     if (path.extension() != ending)
         return absl::InvalidArgumentError(
             fmt::format("'{}' does not end in {}; import it first", name, ending));
@@ -230,7 +248,7 @@ absl::Status SceneDesk::show(v1::Scene message, const std::stop_token& stop) {
     setScene_(scene);
     if (state_ == nullptr)
         return absl::OkStatus();
-    if (scene == commandLine_)
+    if (scene == commandLine_ || scene == asTold_)
         state_->forgetScene();
     else
         state_->keep(keptScene(asNamed_, named(scene)));

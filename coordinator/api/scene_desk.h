@@ -75,6 +75,7 @@ private:
     mutable std::mutex mutex_;  ///< guards what follows
     std::set<std::pair<std::string, fabric::ObjectKind>> allowed_;
     fabric::Scene commandLine_;  ///< that the server was started with
+    fabric::Scene asTold_;       ///< the same as who was told of it sets it again: colours round
     fabric::Scene asNamed_;      ///< the same, as begin() was told
 };
 

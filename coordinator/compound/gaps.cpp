@@ -41,6 +41,15 @@ config::Place placeOf(std::size_t destination, const config::ResolvedConfigurati
     return {};
 }
 
+/// Whether anything is drawn of the framebuffer's destination, wherever that goes.
+bool isDrawn(std::size_t framebuffer, const WorkList& list) {
+    const WorkingBuffer& shown = list.framebuffers[framebuffer];
+    return std::ranges::any_of(list.draws, [&](const PlannedDraw& draw) {
+        const WorkingBuffer& drawn = list.framebuffers[draw.framebuffer];
+        return drawn.destination == shown.destination && drawn.pass == shown.pass;
+    });
+}
+
 }  // namespace
 
 void warnOfGaps(const config::ResolvedConfiguration& resolved, const WorkList& list,
@@ -62,8 +71,14 @@ void warnOfGaps(const config::ResolvedConfiguration& resolved, const WorkList& l
                                                      std::string(why.message())));
                     continue;
                 }
-                if (there.all().empty())
+                if (there.all().empty()) {
+                    if (isDrawn(part.framebuffer, list))
+                        findings.warning(
+                            placeOf(destination, resolved),
+                            "what is drawn does not reach the picture, which is background: other "
+                            "channels give it as an outputframe, which is taken as an inputframe");
                     continue;
+                }
                 const std::vector<Gap> gaps = there.gaps(part.part);
                 if (!gaps.empty())
                     findings.warning(placeOf(destination, resolved), describe(gaps, part.part));

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "coordinator/compound/pictures.h"
 #include "coordinator/compound/plan_check.h"
 #include "coordinator/config/findings.h"
 #include "coordinator/config/named.h"
@@ -50,6 +51,30 @@ std::vector<ActiveConfiguration::Pipe> pipesOf(const config::Configuration& conf
                 }))
                 pipes.push_back({node, pipe});
     return pipes;
+}
+
+/// Unimplemented where the first picture, or a part of it, is put together of other destinations'
+/// frames alone: by which sights these are seen is not looked for.
+absl::Status checkDrawn(const config::Configuration& configuration,
+                        const compound::PlanRequest& asked) {
+    config::Findings findings;
+    const config::ResolvedConfiguration resolved =
+        config::resolve(configuration, compound::displayOf(configuration, asked), findings);
+    std::set<std::size_t> taking;
+    std::set<std::size_t> drawing;
+    for (const config::ResolvedCompound& each : resolved.compounds) {
+        if (each.destination && each.tasks.assemble && !each.inputFrames.empty())
+            taking.insert(*each.destination);
+        if (each.destination && each.tasks.draw)
+            drawing.insert(*each.destination);
+    }
+    for (const std::size_t index : taking)
+        if (const config::Destination& taker = resolved.destinations[index];
+            !drawing.contains(index) && compound::isPartOf(taker, asked.outputs.front()))
+            return absl::UnimplementedError(
+                "channel '" + taker.name +
+                "' shows what others have drawn, which picks do not go through; pick in those");
+    return absl::OkStatus();
 }
 
 absl::Status firstError(const config::Findings& findings) {
@@ -238,6 +263,7 @@ absl::StatusOr<fabric::SeenAreas> ActiveConfiguration::seen(const FrameRequest& 
                      compound::makePlan(config::oneChannel(shown_), asked));
     if (plan.pictures.empty())
         return absl::InvalidArgumentError("no picture is asked for");
+    RETURN_IF_ERROR(checkDrawn(shown_, asked));
     return plan.pictures.front().seen;
 }
 

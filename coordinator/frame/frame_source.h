@@ -226,7 +226,7 @@ public:
 
     /// By which sights the first of the pictures asked for would be seen, for picks in it. Errors:
     /// those of the request; FailedPrecondition before there was a renderer to make a
-    /// configuration of.
+    /// configuration of; Unimplemented of a picture that is put together of other channels'.
     virtual absl::StatusOr<fabric::SeenAreas> seen(const FrameRequest& request) = 0;
 
     /// What a place of a picture shows, asked of one renderer and, should that fail, of the next;

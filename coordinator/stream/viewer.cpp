@@ -24,7 +24,8 @@ absl::Status Viewer::receive(std::span<const std::byte> message) {
     auto request = parseRequest(message);
     if (absl::IsDataLoss(request.status()))
         return request.status();
-    auto& [session, seat] = joined_;
+    const auto& session = joined_.session;
+    const auto& seat = joined_.seat;
     if (!request.ok()) {
         session->refuse(*seat, request.status());
         return absl::OkStatus();

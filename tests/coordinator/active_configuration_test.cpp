@@ -63,6 +63,28 @@ TEST(ActiveConfiguration, RefusesToShowAnEyeThatIsBehindTheWall) {
     expectRefused(active, settings);
 }
 
+/// A channel that shows what another has drawn, beside one that draws by another's help.
+TEST(ActiveConfiguration, RefusesPicksInWhatOthersHaveDrawn) {
+    const ActiveConfiguration active(
+        read("config { appNode { pipe { window { channel { name \"wall\" } "
+             "channel { name \"desk\" } channel { name \"help\" } } } } "
+             "layout { view {} } canvas { layout 0 segment { channel \"wall\" } } "
+             "canvas { layout 0 segment { channel \"desk\" } } "
+             "compound { compound { channel ( canvas 0 segment 0 view 0 ) outputframe {} "
+             "compound {} compound { channel \"help\" outputframe {} } "
+             "inputframe { name \"frame.help\" } } "
+             "compound { channel ( canvas 1 segment 0 view 0 ) task [ CLEAR ASSEMBLE ] "
+             "inputframe { name \"frame.wall\" } } } }"));
+    FrameRequest request;
+    request.shown = {Shown{}};
+    EXPECT_TRUE(active.seen(request).ok()) << active.seen(request).status();
+    request.shown.front().canvas = "1";
+    const absl::Status refused = active.seen(request).status();
+    EXPECT_TRUE(absl::IsUnimplemented(refused)) << refused;
+    EXPECT_THAT(std::string(refused.message()),
+                HasSubstr("channel 'desk' shows what others have drawn"));
+}
+
 /// Two channels beside each other, whose border goes by what they take; `seen` has the layout.
 ActiveConfiguration twoBesideEachOther(const std::string& seen = "layout { view { } } ") {
     const std::string window = "window { viewport [ 0 0 640 480 ] channel { name \"";

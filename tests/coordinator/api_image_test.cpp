@@ -146,6 +146,10 @@ TEST_F(Rest, DepthComesAsAFloatMap) {
     const RestAnswer without = get("/image?width=1&height=2&format=IMAGE_FORMAT_DEPTH");
     expectProblem(without, 409, "FAILED_PRECONDITION");
     EXPECT_EQ(text(without, "field"), "format");
+    const RestAnswer noDepths =
+        send("POST", "/image", R"({"width":1,"height":2,"withDepth":true})");
+    expectProblem(noDepths, 409, "FAILED_PRECONDITION");
+    EXPECT_EQ(text(noDepths, "field"), "withDepth");
 }
 
 TEST_F(Rest, PicturesTooLargeForOneAnswerComeInParts) {
@@ -248,6 +252,12 @@ TEST_F(Rest, PicksCountTheirRowsFromTheTop) {
     ASSERT_EQ(answer.status, 200) << *answer.body;
     EXPECT_EQ(frames_.picks().back().place.x, 10.5);
     EXPECT_EQ(frames_.picks().back().place.y, 49.5);
+}
+
+TEST_F(Rest, PicksAreOfTheEyeThatIsNamed) {
+    const std::string pick = R"({"x":1,"y":1,"shown":{"stereo":"SHOWN_STEREO_SIDE_BY_SIDE")";
+    expectProblem(send("POST", "/pick", pick + "}}"), 400, "INVALID_ARGUMENT");
+    EXPECT_EQ(send("POST", "/pick", pick + R"(,"eye":"SHOWN_EYE_LEFT"}})").status, 200);
 }
 
 TEST_F(Rest, PicksAndProfilesAreNotOfTwoScenes) {

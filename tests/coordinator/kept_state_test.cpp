@@ -209,9 +209,33 @@ TEST_F(KeptState, EndsWhereTheCommandLinesSceneIsSetAgain) {
     expectScene("started with instead");
 }
 
+/// Of colours that a scene does not say, numbers of another kind are told: these round.
+TEST_F(KeptState, EndsWhereTheCommandLinesSceneIsSetAsItIsTold) {
+    const std::string told = get("/scene");
+    setScene();
+    ASSERT_EQ(send("PUT", "/scene", told), 200);
+    options_.scene.objects.front().name = "started with instead";
+    start();
+    expectScene("started with instead");
+}
+
+TEST_F(KeptState, HasItsFilesByTheirNamesWhereTheCommandLineGoesByALink) {
+    std::filesystem::create_directory_symlink(data(), folder_.path("link"));
+    options_.scene.objects.front().path = folder_.path("link") + "/a.eym";
+    start();
+    EXPECT_THAT(get("/scene"), HasSubstr(R"("mesh": "a.eym")"));
+}
+
 TEST_F(KeptState, HasNoSceneOfTheCommandLinesFilesAsTheOtherKind) {
     const char* const asTerrain = R"({"objects":[{"terrain":"/elsewhere/first.eym"}]})";
     EXPECT_EQ(send("PUT", "/scene", asTerrain), 400);
+    std::ofstream(data() / "a.eyt") << "a terrain";
+    EXPECT_THAT(*coordinator_->api()
+                     .rest()
+                     .answer({"PUT", "/api/v1/scene", R"({"objects":[{"mesh":"a.eyt"}]})",
+                              "application/json", ""})
+                     .body,
+                HasSubstr("'a.eyt' is a terrain, and named as a mesh"));
     EXPECT_THAT(*coordinator_->api()
                      .rest()
                      .answer({"PUT", "/api/v1/scene", asTerrain, "application/json", ""})

@@ -170,6 +170,28 @@ TEST(PlanCheck, WarnsOfPartsOfThePictureThatNobodyDraws) {
     EXPECT_EQ(foundIn(halves("viewport [ 0 0 .5 1 ]", "viewport [ .4 0 .6 1 ]")), "");
 }
 
+TEST(PlanCheck, WarnsOfWhatIsDrawnAndDoesNotReachThePicture) {
+    const std::string lost =
+        "f:2:1: warning: what is drawn does not reach the picture, which is background: other "
+        "channels give it as an outputframe, which is taken as an inputframe\n";
+    const auto child = [](const std::string& rest) {
+        return foundIn(withCompounds("compound { channel ( segment 0 view 0 ) " + rest + " }"));
+    };
+    EXPECT_EQ(child("compound { channel \"b\" }"), lost);
+    EXPECT_EQ(child("compound { channel \"b\" range [ 0 .5 ] } "
+                    "compound { channel \"c\" range [ .5 1 ] }"),
+              lost);
+    EXPECT_EQ(child("compound { period 2 phase 0 } compound { channel \"b\" period 2 phase 1 }"),
+              lost);
+    EXPECT_EQ(
+        child("compound { channel \"b\" compound { channel \"c\" outputframe { name \"c\" } } "
+              "inputframe { name \"c\" } }"),
+        lost);
+    EXPECT_EQ(child("compound { channel \"b\" outputframe { name \"b\" } } "
+                    "inputframe { name \"b\" }"),
+              "");
+}
+
 TEST(PlanCheck, WarnsOfDataThatNobodyDraws) {
     EXPECT_EQ(foundIn(halves("range [ 0 .4 ]", "range [ .5 1 ]")),
               "f:2:1: warning: nothing draws 10 % of what is shown, in range [ 0.4 0.5 ]: it is "

@@ -237,6 +237,27 @@ TEST_F(ConfigPictures, AllOfSegmentsWithNumbersForNamesAreThoseOfTheirNames) {
     EXPECT_GT(differing(pictures[0], pictures[1]), 100U) << "two halves";
 }
 
+TEST_F(ConfigPictures, AllOfOneEyeAndOfTwoInOneSegmentHaveTheirDepths) {
+    const std::string file = folder_->path("mixed.eqc");
+    std::ofstream(file) << R"(config {
+        appNode { pipe { window { viewport [ 0 0 96 64 ] channel { name "a" } } } }
+        layout { view { viewport [ 0 0 .5 1 ] } view { mode STEREO viewport [ .5 0 .5 1 ] } }
+        canvas { layout 0 segment { channel "a" } } })";
+    EXPECT_TRUE(
+        test::succeeded({"render", folder_->path("ball.eym"), "--camera", folder_->path("cam.json"),
+                         "--size", "96x64", "--config", file, "--quiet", "--all", "-o",
+                         folder_->path("mixed.png"), "--depth", folder_->path("mixed.pfm")}));
+    std::vector<fabric::Image> pictures;
+    for (const std::string eye : {"", ".left", ".right"}) {
+        EXPECT_TRUE(std::ifstream(folder_->path("mixed.0.0" + eye + ".pfm")).good()) << eye;
+        const auto picture = test::readPng(folder_->path("mixed.0.0" + eye + ".png"));
+        ASSERT_TRUE(picture.ok()) << picture.status();
+        pictures.push_back(*picture);
+    }
+    EXPECT_GT(differing(pictures[0], pictures[1]), 100U) << "either has its own view";
+    EXPECT_GT(differing(pictures[1], pictures[2]), 100U);
+}
+
 TEST_F(ConfigPictures, WarningsAreToldThoughThereIsNothingElseToTell) {
     const std::string file = folder_->path("again.eqc");
     std::ofstream(file) << R"(config { latency 1 latency 0
