@@ -2,6 +2,8 @@
 #include "renderer/import/geotiff_writer.h"
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <system_error>
@@ -24,6 +26,9 @@ absl::Status writeGeoTiff(const terrain::HeightGrid& grid, const std::string& pa
     QuietGdal gdal;
     ASSIGN_OR_RETURN(WholeFile whole, WholeFile::create(path));
     const auto cannotBeWritten = [&](const std::string& error) {
+        for (const int known : {ENOSPC, EDQUOT, EFBIG})  // as libtiff tells them
+            if (error.find(std::strerror(known)) != std::string::npos)
+                return fabric::writeError(path, "cannot write it", known);
         return absl::UnavailableError(fmt::format("{}: cannot be written ({})", path, error));
     };
     {

@@ -397,6 +397,7 @@ TEST_F(BadInput, OutputLargerThanFilesMayBeFailsByNameAndLeavesNothing) {
         const test::Outcome outcome = test::run(command, seconds(60), {});
         EXPECT_EQ(outcome.exit, (test::Exit{kWorkFailed, 0})) << arguments[0] << outcome.errors;
         EXPECT_NE(outcome.errors.find(arguments.back()), std::string::npos) << outcome.errors;
+        EXPECT_NE(outcome.errors.find("ulimit -f"), std::string::npos) << outcome.errors;
     }
     for (const std::string& name : test::namesIn(folder_.path()))
         EXPECT_TRUE(name.ends_with(".source")) << name << " was left";
