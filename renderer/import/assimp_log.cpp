@@ -81,7 +81,7 @@ public:
         if (const auto known = heard_.find(kind); known != heard_.end())
             ++known->second.times;
         else if (heard_.size() < kMostKept)
-            heard_.try_emplace(std::move(kind), std::string(text));
+            heard_.try_emplace(std::move(kind), Heard{std::string(text)});
     }
 
     const std::map<std::string, Heard>& heard() const { return heard_; }
