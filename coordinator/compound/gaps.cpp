@@ -41,15 +41,6 @@ config::Place placeOf(std::size_t destination, const config::ResolvedConfigurati
     return {};
 }
 
-/// Whether anything is drawn of the framebuffer's destination, wherever that goes.
-bool isDrawn(std::size_t framebuffer, const WorkList& list) {
-    const WorkingBuffer& shown = list.framebuffers[framebuffer];
-    return std::ranges::any_of(list.draws, [&](const PlannedDraw& draw) {
-        const WorkingBuffer& drawn = list.framebuffers[draw.framebuffer];
-        return drawn.destination == shown.destination && drawn.pass == shown.pass;
-    });
-}
-
 }  // namespace
 
 void warnOfGaps(const config::ResolvedConfiguration& resolved, const WorkList& list,
@@ -72,7 +63,7 @@ void warnOfGaps(const config::ResolvedConfiguration& resolved, const WorkList& l
                     continue;
                 }
                 if (there.all().empty()) {
-                    if (isDrawn(part.framebuffer, list))
+                    if (list.drawOf(part.framebuffer) != nullptr)
                         findings.warning(
                             placeOf(destination, resolved),
                             "what is drawn does not reach the picture, which is background: other "

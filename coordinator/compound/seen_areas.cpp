@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/compound/seen_areas.h"
 
-#include <algorithm>
-
 namespace eyrie::compound {
 namespace {
 
 using fabric::SeenArea;
 using fabric::Vec2;
-
-/// Any draw of what the framebuffer shows; null where nothing is drawn.
-const fabric::ChannelTask* drawOf(std::size_t framebuffer, const WorkList& list) {
-    const WorkingBuffer& shown = list.framebuffers[framebuffer];
-    const auto found = std::ranges::find_if(list.draws, [&](const PlannedDraw& draw) {
-        const WorkingBuffer& drawn = list.framebuffers[draw.framebuffer];
-        return drawn.destination == shown.destination && drawn.pass == shown.pass;
-    });
-    return found == list.draws.end() ? nullptr : &found->task;
-}
 
 fabric::Sight sightOf(const fabric::ChannelTask& task, double fovYDegrees) {
     if (task.sight)
@@ -33,7 +21,7 @@ void add(const std::vector<PicturePart>& parts, const Picture& picture, const Wo
          double fovYDegrees, const Vec2& corner, const Vec2& size, std::vector<SeenArea>& areas) {
     const Vec2 whole(picture.area.width, picture.area.height);
     for (const PicturePart& part : parts) {
-        const fabric::ChannelTask* const task = drawOf(part.framebuffer, list);
+        const fabric::ChannelTask* const task = list.drawOf(part.framebuffer);
         if (task == nullptr)
             continue;
         const Vec2 at(part.x - picture.area.x, part.y - picture.area.y);
@@ -52,7 +40,7 @@ bool isCamerasOwn(const Picture& picture, const WorkList& list) {
     if (picture.parts.size() != 1 || !picture.right.empty())
         return false;
     const PicturePart& part = picture.parts.front();
-    const fabric::ChannelTask* const task = drawOf(part.framebuffer, list);
+    const fabric::ChannelTask* const task = list.drawOf(part.framebuffer);
     const fabric::PixelViewport place{part.x, part.y, part.part.width, part.part.height};
     return task != nullptr && !task->sight && place == picture.area &&
            part.part == fabric::PixelViewport{0, 0, task->viewWidth, task->viewHeight};

@@ -413,6 +413,15 @@ const Blind* WorkList::blindOf(std::size_t framebuffer) const {
     return found == blind.end() ? nullptr : &found->second;
 }
 
+const fabric::ChannelTask* WorkList::drawOf(std::size_t framebuffer) const {
+    const WorkingBuffer& shown = framebuffers[framebuffer];
+    const auto found = std::ranges::find_if(draws, [&](const PlannedDraw& draw) {
+        const WorkingBuffer& drawn = framebuffers[draw.framebuffer];
+        return drawn.destination == shown.destination && drawn.pass == shown.pass;
+    });
+    return found == draws.end() ? nullptr : &found->task;
+}
+
 std::size_t WorkList::find(const WorkingBuffer& wanted) {
     const config::ChannelIndex& channel = wanted.framebuffer.channel;
     std::vector<std::size_t>& own =

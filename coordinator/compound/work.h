@@ -96,6 +96,9 @@ struct WorkList {
     std::map<std::tuple<std::size_t, Eye, Eye>, Blind> blind;
     /// Null where the framebuffer's destination is seen, or its picture is put together of others'.
     const Blind* blindOf(std::size_t framebuffer) const;
+    /// Any draw of the framebuffer's destination in its pass, whoever does it; null where nothing
+    /// of that is drawn.
+    const fabric::ChannelTask* drawOf(std::size_t framebuffer) const;
     Refusals& refusals;
 
     /// The framebuffer in which a destination's picture comes to be; made where there is none yet.
