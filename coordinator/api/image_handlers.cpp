@@ -155,14 +155,14 @@ std::string upright(const std::vector<Pixel>& pixels, const fabric::PixelViewpor
     return bytes;
 }
 
-/// Two eyes in one picture have no depths; nor does a configuration that shows them so.
+/// Anaglyphs have no depths, whether the request or the configuration makes them.
 absl::Status checkDepth(const fabric::Image& image, const v1::RenderImageRequest& request) {
     const bool isMap = request.format() == v1::IMAGE_FORMAT_DEPTH;
     if (image.hasDepth() || (!isMap && !request.with_depth()))
         return absl::OkStatus();
     return absl::FailedPreconditionError(fmt::format(
-        "{}, and what is shown has no depths, as of two eyes in one picture; ask for colours or "
-        "for one eye",
+        "{}, and what is shown has no depths, as an anaglyph has none; ask for colours or for one "
+        "eye",
         isMap ? "format is IMAGE_FORMAT_DEPTH" : "with_depth is set"));
 }
 

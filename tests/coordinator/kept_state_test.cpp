@@ -230,16 +230,15 @@ TEST_F(KeptState, HasNoSceneOfTheCommandLinesFilesAsTheOtherKind) {
     const char* const asTerrain = R"({"objects":[{"terrain":"/elsewhere/first.eym"}]})";
     EXPECT_EQ(send("PUT", "/scene", asTerrain), 400);
     std::ofstream(data() / "a.eyt") << "a terrain";
-    EXPECT_THAT(*coordinator_->api()
-                     .rest()
-                     .answer({"PUT", "/api/v1/scene", R"({"objects":[{"mesh":"a.eyt"}]})",
-                              "application/json", ""})
-                     .body,
+    const auto refusalOf = [this](const char* scene) {
+        return *coordinator_->api()
+                    .rest()
+                    .answer({"PUT", "/api/v1/scene", scene, "application/json", ""})
+                    .body;
+    };
+    EXPECT_THAT(refusalOf(R"({"objects":[{"mesh":"a.eyt"}]})"),
                 HasSubstr("'a.eyt' is a terrain, and named as a mesh"));
-    EXPECT_THAT(*coordinator_->api()
-                     .rest()
-                     .answer({"PUT", "/api/v1/scene", asTerrain, "application/json", ""})
-                     .body,
+    EXPECT_THAT(refusalOf(asTerrain),
                 HasSubstr("scene.objects[0]: '/elsewhere/first.eym' is a mesh"));
     expectScene("started with");
     start();

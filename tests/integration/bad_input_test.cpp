@@ -321,6 +321,7 @@ TEST_F(BadInput, UnknownCommandsAndOptionsAreRefused) {
     expectRefused({"import"}, {"mesh", "terrain"});
     expectRefused({"import", "cloud", "x"}, {"cloud"});
     expectRefused({"info"}, {"file"});
+    expectRefused({"info", good("ball.eym"), "--colour"}, {"--colour"});
     expectRefused({"info", good("ball.eym"), "--jason"},
                   {"'--jason' is nothing that eyrie info knows, did you mean '--json'?"});
     expectRefused({"--json", "info", good("ball.eym")},
