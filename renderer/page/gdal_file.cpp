@@ -262,10 +262,12 @@ private:
         if (said.find("Range downloading not supported") != std::string::npos)
             return rangesRefused(url_);
         const std::string what = fmt::format("{} of {} bytes at {} came", got, asked, offset);
+        const std::string reason = said.empty() ? "" : ": " + said;
         // It has just been waited for in vain: asking why would take as long again.
         if (took > kLongWait)
-            return unavailable(url_, fmt::format("{} in {:.0f} s", what,
-                                                 std::chrono::duration<double>(took).count()));
+            return unavailable(url_,
+                               fmt::format("{} in {:.0f} s, which is too slow{}", what,
+                                           std::chrono::duration<double>(took).count(), reason));
         // If that fails GDAL takes the file as gone, in the handle that was open, too.
         absl::StatusOr<Handle> again = openAnew(url_);
         {
@@ -274,7 +276,7 @@ private:
         }
         RETURN_IF_ERROR(again.status());
         RETURN_IF_ERROR(checkSize(sizeOf(**again)));
-        return unavailable(url_, fmt::format("{}{}{}", what, said.empty() ? "" : ": ", said));
+        return unavailable(url_, what + reason);
     }
 
     const std::string url_;
