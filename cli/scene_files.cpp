@@ -96,11 +96,21 @@ absl::Status placeMeshes(fabric::Scene& scene, std::size_t firstLoose,
     return absl::OkStatus();
 }
 
+/// Without `.` and `..`, but where these lead out of a link's target to something else.
+std::string normalised(const fs::path& path) {
+    const fs::path whole = fs::absolute(path), normal = whole.lexically_normal();
+    std::error_code none;
+    const bool isAnother = fs::exists(whole, none) && !fs::equivalent(whole, normal, none);
+    return (isAnother ? whole : normal).string();
+}
+
 /// What a scene file in `folder` calls `name`, as it is called everywhere.
 absl::Status place(std::string& name, const fs::path& folder) {
-    RETURN_IF_ERROR(page::checkScheme(name));
+    // Of meshes that are nowhere drawn from URLs that is told, see DataCache.
+    if (const absl::Status known = page::checkScheme(name); !known.ok())
+        return dataFileOf(name) == DataFile::MeshSource ? absl::OkStatus() : known;
     if (!page::isVirtual(name))
-        name = (folder / name).lexically_normal().string();
+        name = normalised(folder / name);
     return absl::OkStatus();
 }
 
@@ -148,7 +158,7 @@ absl::StatusOr<NamedScene> assembleScene(std::span<const std::string> paths, Dat
     for (fabric::SceneObject& object : scene->objects) {
         ASSIGN_OR_RETURN(const std::string data,
                          cache.dataFor(object.path, object.kind, object.imagery));
-        object.path = page::isVirtual(data) ? data : fs::absolute(data).lexically_normal().string();
+        object.path = page::isVirtual(data) ? data : normalised(data);
         object.imagery.clear();
     }
     for (std::string& note : cache.takeNotes()) notes.push_back(std::move(note));

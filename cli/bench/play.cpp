@@ -38,11 +38,14 @@ fabric::FrameStatistics ofSizeAskedFor(fabric::FrameStatistics statistics, doubl
     return statistics;
 }
 
-/// Whether some pixel is not the background's. From the middle of the picture on, where that is
-/// known at once of most: it is within the time that the bench takes.
-bool showsSomething(const fabric::Image& image, const fabric::Rgba& background) {
+/// Whether something was drawn and some pixel is not the background's, of which anaglyphs show
+/// less. From the middle of the picture on, where that is known at once of most: it is within the
+/// time that the bench takes.
+bool showsSomething(const coordinator::RenderedFrame& drawn, const fabric::Rgba& background) {
+    if (drawn.statistics.nodes + drawn.statistics.nodesHidden == 0)
+        return false;
     const auto isOther = [&](const fabric::Rgba& pixel) { return pixel != background; };
-    const auto& pixels = image.colour;
+    const auto& pixels = drawn.image.colour;
     const auto middle = pixels.begin() + static_cast<std::ptrdiff_t>(pixels.size() / 2);
     return std::any_of(middle, pixels.end(), isOther) ||
            std::any_of(pixels.begin(), middle, isOther);
@@ -69,10 +72,9 @@ public:
             const Milliseconds taken = sequence.atOnce == 1 ? latency : interval;
             const double stretched =
                 stretch(frame.drawn->image.area, request.width, request.height);
-            played_.frames.push_back({pass, seconds, taken.count(),
-                                      ofSizeAskedFor(frame.drawn->statistics, stretched),
-                                      latency.count(), stretched,
-                                      showsSomething(frame.drawn->image, pictures_.background())});
+            played_.frames.push_back(
+                {pass, seconds, taken.count(), ofSizeAskedFor(frame.drawn->statistics, stretched),
+                 latency.count(), stretched, showsSomething(*frame.drawn, pictures_.background())});
             played_.device = frame.drawn->device;
             drawing += taken.count();
             frameDone_();

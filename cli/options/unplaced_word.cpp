@@ -29,6 +29,23 @@ std::vector<std::string> namesIn(const CLI::App& command) {
     return names;
 }
 
+/// What of a command's part of the line belongs nowhere. CLI11 has the mark there, too, behind
+/// which words are no options.
+std::vector<std::string> unplacedOf(const CLI::App& command) {
+    std::vector<std::string> words = command.remaining();
+    std::erase(words, "--");
+    return words;
+}
+
+/// Without the value that is written to it.
+std::string nameOf(const std::string& word) { return word.substr(0, word.find('=')); }
+
+std::string isNothingThat(const std::string& knower, const std::string& word,
+                          const std::vector<std::string>& names) {
+    return fmt::format("'{}' is nothing that {} knows{}", word, knower,
+                       fabric::didYouMean(nameOf(word), names));
+}
+
 }  // namespace
 
 std::string nameOfCommand(const CLI::App& app) {
@@ -39,19 +56,23 @@ std::string nameOfCommand(const CLI::App& app) {
 }
 
 std::string aboutUnplacedWord(const CLI::App& app) {
-    std::vector<const CLI::App*> commands = commandsOf(app);
+    const std::vector<const CLI::App*> commands = commandsOf(app);
     const CLI::App& last = *commands.back();
-    commands.pop_back();
-    for (const CLI::App* command : commands)
-        if (const std::vector<std::string> early = command->remaining(); !early.empty())
-            return fmt::format("'{0}' stands before the command; write `{1} {0} ...`",
-                               early.front(), nameOfCommand(app));
-    const std::vector<std::string> unknown = last.remaining();
-    if (unknown.empty())
-        return "";
-    const std::string& word = unknown.front();
-    return fmt::format("'{}' is nothing that {} knows{}", word, nameOfCommand(app),
-                       fabric::didYouMean(word.substr(0, word.find('=')), namesIn(last)));
+    std::string soFar;
+    for (const CLI::App* command : commands) {
+        soFar += (soFar.empty() ? "" : " ") + command->get_name();
+        const std::vector<std::string> unplaced = unplacedOf(*command);
+        if (unplaced.empty())
+            continue;
+        const std::string& word = unplaced.front();
+        if (command == &last || !word.starts_with('-'))
+            return isNothingThat(soFar, word, namesIn(*command));
+        if (last.get_option_no_throw(nameOf(word)) == nullptr)
+            return isNothingThat(nameOfCommand(app), word, namesIn(last));
+        return fmt::format("'{0}' stands before the command; write `{1} {0} ...`", word,
+                           nameOfCommand(app));
+    }
+    return "";
 }
 
 }  // namespace eyrie::cli

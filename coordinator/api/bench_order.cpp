@@ -2,7 +2,10 @@
 #include "coordinator/api/bench_order.h"
 
 #include <array>
+#include <cctype>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -188,13 +191,27 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kAdvice =
      {"--reference-frames", "referenceFrames"},
      {"a smaller --size", "a smaller width and height"}}};
 
+/// With names in the folder for paths below it: where those begin, not within addresses of others.
+std::string withoutFolder(std::string text, const std::string& folder) {
+    const auto isOfAName = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+               std::string_view("/.-_:~%").find(c) != std::string_view::npos;
+    };
+    for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at))
+        if (at > 0 && isOfAName(text[at - 1]))
+            ++at;
+        else
+            text.erase(at, folder.size());
+    return text;
+}
+
 /// What the program says that made `report`, in the caller's terms: where the data folder is nobody
 /// is told.
 absl::Status inCallersTerms(const absl::Status& status, const fs::path& report,
                             const fs::path& output, const access::DataFolder& folder) {
     std::string text(status.message());
     text = named(std::move(text), report.string(), output.string());
-    text = named(std::move(text), (folder.path() / "").string(), "");
+    text = withoutFolder(std::move(text), (folder.path() / "").string());
     for (const auto& [advice, possible] : kAdvice) text = named(std::move(text), advice, possible);
     return {status.code(), text};
 }

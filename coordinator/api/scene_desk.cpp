@@ -248,10 +248,15 @@ absl::Status SceneDesk::show(v1::Scene message, const std::stop_token& stop) {
     setScene_(scene);
     if (state_ == nullptr)
         return absl::OkStatus();
-    if (scene == commandLine_ || scene == asTold_)
+    // As it is told: the command line may have gone by links.
+    v1::Scene told = named(scene);
+    const auto isToldAs = [&](const fabric::Scene& other) {
+        return google::protobuf::util::MessageDifferencer::Equals(told, named(other));
+    };
+    if (isToldAs(commandLine_) || isToldAs(asTold_))
         state_->forgetScene();
     else
-        state_->keep(keptScene(asNamed_, named(scene)));
+        state_->keep(keptScene(asNamed_, std::move(told)));
     return absl::OkStatus();
 }
 

@@ -14,6 +14,7 @@
 #include "coordinator/compound/equalizer/equalizers.h"
 #include "coordinator/compound/lone_eyes.h"
 #include "coordinator/compound/plan.h"
+#include "coordinator/config/destinations.h"
 #include "coordinator/config/resolved.h"
 
 namespace eyrie::compound {
@@ -40,6 +41,24 @@ config::Configuration balanced(const config::Configuration& written) {
     return live;
 }
 
+/// Where nothing but sizes is in the way, as of a canvas larger than pictures may be, that of
+/// smaller pictures: such are what is asked for then.
+std::optional<Plan> planOf(const config::Configuration& live, PlanRequest request,
+                           Refusals& refusals) {
+    constexpr int kMostParts = 1 << 16;
+    std::optional<Plan> plan = makePlan(live, request, refusals);
+    for (int parts = 2; !plan && !refusals.impossible.hasErrors() && parts <= kMostParts;
+         parts *= 2) {
+        for (Output& output : request.outputs)
+            if (const auto size = config::configuredSize(live, live.canvases[output.canvas]))
+                output.size = {std::max(1, size->width / parts), std::max(1, size->height / parts)};
+        Refusals ofSmaller;
+        plan = makePlan(live, request, ofSmaller);
+        refusals.impossible = std::move(ofSmaller.impossible);
+    }
+    return plan;
+}
+
 /// Sees the plan, or why there is none, of each canvas in each of its layouts and in each frame.
 void eachPlan(const config::Configuration& live,
               const std::function<void(const std::optional<Plan>&, const Refusals&)>& see) {
@@ -51,7 +70,7 @@ void eachPlan(const config::Configuration& live,
         for (std::int64_t frame = 0; frame < frames; ++frame) {
             request.frameNumber = static_cast<std::uint64_t>(frame);
             Refusals refusals;
-            const std::optional<Plan> plan = makePlan(live, request, refusals);
+            const std::optional<Plan> plan = planOf(live, request, refusals);
             see(plan, refusals);
         }
     };

@@ -165,7 +165,7 @@ ActiveConfiguration::Balance& ActiveConfiguration::balanceOf(std::uint64_t sessi
 
 absl::Status ActiveConfiguration::become(config::ConfigurationState state, bool choosesLayouts) {
     for (std::size_t i = 0; i < state.equalizers.size(); ++i)
-        if (state.equalizers[i] != state_.equalizers[i])
+        if (state.equalizers[i] != state_.equalizers[i] || state.views != state_.views)
             RETURN_IF_ERROR(compound::checkDivision(written_, state, i));
     config::ConfigurationState before = state_;
     if (absl::Status shown = show(std::move(state)); !shown.ok()) {

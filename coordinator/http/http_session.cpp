@@ -242,8 +242,14 @@ private:
     /// What is longer than any body may be is found out before it is known who asks.
     std::string tooLong() const {
         const bool isLongest = !parser_->is_header_done();  // nothing else ends it there
-        return fmt::format("the body is longer than {} MiB; make it shorter",
-                           (isLongest ? kMaxChangeBytes : kMaxBodyBytes) / kMiB);
+        const bool saysNoLength =
+            !isLongest && parser_->chunked() && isChange(askedBy(parser_->get(), address_));
+        return fmt::format("the body is longer than {} MiB; make it shorter{}",
+                           (isLongest ? kMaxChangeBytes : kMaxBodyBytes) / kMiB,
+                           saysNoLength ? fmt::format(", or say its Content-Length: with that it "
+                                                      "may have {} MiB",
+                                                      kMaxChangeBytes / kMiB)
+                                        : "");
     }
 
     void requestRead(error_code error) {

@@ -104,12 +104,17 @@ std::optional<std::string> matrixOfSkew(std::string_view skew) {
 std::optional<std::string> withoutSkews(std::string_view collada) {
     constexpr std::string_view kEnd = "</skew>";
     MendedText mended(collada);
+    std::size_t end = 0, done = 0;
     forEachTag(collada, "<skew", [&](std::string_view tag, std::size_t at) {
-        const std::size_t content = at + tag.size(), end = collada.find(kEnd, content);
-        if (end == collada.npos)
+        const std::size_t content = at + tag.size();
+        if (end < content)
+            end = collada.find(kEnd, content);
+        if (end == collada.npos || at < done)  // one within another: neither format nor Assimp
             return;
-        if (const auto matrix = matrixOfSkew(collada.substr(content, end - content)))
-            mended.replace(at, end + kEnd.size() - at, fmt::format("<matrix>{}</matrix>", *matrix));
+        if (const auto matrix = matrixOfSkew(collada.substr(content, end - content))) {
+            done = end + kEnd.size();
+            mended.replace(at, done - at, fmt::format("<matrix>{}</matrix>", *matrix));
+        }
     });
     return mended.finish();
 }

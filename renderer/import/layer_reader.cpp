@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,9 +20,11 @@ using terrain::PostRect;
 constexpr int kBlockColumns = 256;
 constexpr int kBlockRows = 128;
 
-constexpr signed char kUnknown = -1;
-
 int blocksOver(int posts, int block) { return (posts + block - 1) / block; }
+
+PostRect blockAt(int x, int y) {
+    return {x * kBlockColumns, y * kBlockRows, kBlockColumns, kBlockRows};
+}
 
 PostRect common(const PostRect& a, const PostRect& b) {
     const int i = std::max(a.i, b.i);
@@ -34,10 +37,8 @@ PostRect common(const PostRect& a, const PostRect& b) {
 
 LayerReader::LayerReader(DemLayer layer) : layer_(std::move(layer)) {
     if (layer_.rimmedWarped)
-        isBesideRim_.assign(
-            static_cast<std::size_t>(blocksOver(layer_.box.columns, kBlockColumns)) *
-                static_cast<std::size_t>(blocksOver(layer_.box.rows, kBlockRows)),
-            kUnknown);
+        blocks_.resize(static_cast<std::size_t>(blocksOver(layer_.box.columns, kBlockColumns)) *
+                       static_cast<std::size_t>(blocksOver(layer_.box.rows, kBlockRows)));
 }
 
 absl::Status LayerReader::read(const PostRect& window, std::vector<float>& out) {
@@ -51,8 +52,7 @@ absl::Status LayerReader::read(const PostRect& window, std::vector<float>& out) 
             ASSIGN_OR_RETURN(const bool isBeside, isBesideRim(x, y));
             if (!isBeside)
                 continue;
-            const PostRect part =
-                common(window, {x * kBlockColumns, y * kBlockRows, kBlockColumns, kBlockRows});
+            const PostRect part = common(window, blockAt(x, y));
             RETURN_IF_ERROR(readPosts(layer_.rimmedWarped.get(), part, rimmed_));
             for (int v = 0; v < part.rows; ++v) {
                 const float* from = rimmed_.data() + static_cast<std::ptrdiff_t>(v) * part.columns;
@@ -67,26 +67,42 @@ absl::Status LayerReader::read(const PostRect& window, std::vector<float>& out) 
     return absl::OkStatus();
 }
 
-/// Whether a block, or what is as near to it as a rim tells, is open or ends.
+LayerReader::Block& LayerReader::blockOf(int x, int y) {
+    return blocks_[static_cast<std::size_t>(y) *
+                       static_cast<std::size_t>(blocksOver(layer_.box.columns, kBlockColumns)) +
+                   static_cast<std::size_t>(x)];
+}
+
+/// Whether a block, or one that is as near to it as a rim tells, has gaps or is at the layer's end.
+/// That reach may be many blocks, where the layer's pixels are far wider than posts.
 absl::StatusOr<bool> LayerReader::isBesideRim(int x, int y) {
+    std::optional<bool>& known = blockOf(x, y).isBesideRim;
+    if (known)
+        return *known;
     const PixelBox& box = layer_.box;
-    signed char& known =
-        isBesideRim_[static_cast<std::size_t>(y) *
-                         static_cast<std::size_t>(blocksOver(box.columns, kBlockColumns)) +
-                     static_cast<std::size_t>(x)];
-    if (known != kUnknown)
-        return known != 0;
     const int reach = layer_.rimReach;
-    const PostRect around{x * kBlockColumns - reach, y * kBlockRows - reach,
-                          kBlockColumns + 2 * reach, kBlockRows + 2 * reach};
-    bool isOpen = around.i < 0 || around.j < 0 || around.i + around.columns > box.columns ||
-                  around.j + around.rows > box.rows;
-    if (!isOpen) {
-        RETURN_IF_ERROR(readPosts(layer_.posts(), around, rimmed_));
-        isOpen = std::ranges::any_of(rimmed_, [](float h) { return h != h; });
+    const PostRect block = blockAt(x, y);
+    const int endI = block.i + block.columns + reach, endJ = block.j + block.rows + reach;
+    bool isBeside = block.i < reach || block.j < reach || endI > box.columns || endJ > box.rows;
+    for (int v = (block.j - reach) / kBlockRows; !isBeside && v * kBlockRows < endJ; ++v)
+        for (int u = (block.i - reach) / kBlockColumns; !isBeside && u * kBlockColumns < endI;
+             ++u) {
+            ASSIGN_OR_RETURN(isBeside, hasGaps(u, v));
+        }
+    known = isBeside;
+    return isBeside;
+}
+
+/// Whether posts of a block have no height. Each block is read once for that, however many are
+/// near it.
+absl::StatusOr<bool> LayerReader::hasGaps(int x, int y) {
+    std::optional<bool>& known = blockOf(x, y).hasGaps;
+    if (!known) {
+        const PostRect all{0, 0, layer_.box.columns, layer_.box.rows};
+        RETURN_IF_ERROR(readPosts(layer_.posts(), common(all, blockAt(x, y)), rimmed_));
+        known = std::ranges::any_of(rimmed_, [](float h) { return h != h; });
     }
-    known = isOpen ? 1 : 0;
-    return isOpen;
+    return *known;
 }
 
 absl::Status LayerReader::readPosts(GDALDatasetH posts, const PostRect& window,

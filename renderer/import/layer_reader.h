@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <absl/status/status.h>
@@ -26,12 +27,20 @@ public:
     absl::Status read(const terrain::PostRect& window, std::vector<float>& out);
 
 private:
+    /// What is known of a block.
+    struct Block {
+        std::optional<bool> hasGaps;
+        std::optional<bool> isBesideRim;
+    };
+
+    Block& blockOf(int x, int y);
     absl::StatusOr<bool> isBesideRim(int x, int y);
+    absl::StatusOr<bool> hasGaps(int x, int y);
     absl::Status readPosts(GDALDatasetH posts, const terrain::PostRect& window,
                            std::vector<float>& out) const;
 
     DemLayer layer_;
-    std::vector<signed char> isBesideRim_;  ///< by blocks; below 0: not known yet
+    std::vector<Block> blocks_;  ///< none where nothing lies beside the layer
     std::vector<float> rimmed_;
 };
 

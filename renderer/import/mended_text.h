@@ -9,7 +9,7 @@
 
 namespace eyrie::import {
 
-/// A text with replacements, which come from front to back.
+/// A text with replacements, which come from front to back and do not overlap.
 class MendedText {
 public:
     explicit MendedText(std::string_view source) : source_(source) {}

@@ -40,9 +40,11 @@ double metresOf(std::string_view factor) {
     return read.ec == std::errc() && std::isfinite(metres) ? std::max(metres, 0.0) : 0;
 }
 
-/// Files with another one Assimp refuses.
+/// Files with another one Assimp refuses. Without any the format has them in the first.
 double unitOfAmf(std::string_view amf) {
     const std::string_view name = xmlAttribute(tagFrom(amf, "<amf", 0), "unit");
+    if (name.empty())
+        return kUnitsOfAmf.front().metres;
     const auto* const known = std::ranges::find(kUnitsOfAmf, name, &Unit::name);
     return known != kUnitsOfAmf.end() ? known->metres : 1;
 }

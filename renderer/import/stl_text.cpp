@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 namespace eyrie::import {
 namespace {
@@ -42,7 +44,13 @@ bool hasCapitals(std::string_view stl) {
 }  // namespace
 
 bool isStlText(std::string_view stl) {
-    constexpr std::size_t kBinaryHeader = 84;
+    constexpr std::size_t kBinaryHeader = 84, kBinaryFacet = 50;
+    if (stl.size() > kBinaryHeader) {
+        std::uint32_t facets = 0;
+        std::memcpy(&facets, stl.data() + kBinaryHeader - sizeof facets, sizeof facets);
+        if (stl.size() == kBinaryHeader + kBinaryFacet * facets)
+            return false;
+    }
     const std::string_view text = fromFirstWord(stl);
     return std::ranges::equal(text.substr(0, kSolid.size()), kSolid, {}, lowered) &&
            stl.substr(0, kBinaryHeader).find('\0') == std::string_view::npos;

@@ -49,33 +49,29 @@ std::uint64_t countShapesWithColouredFaces(std::string_view x3d) {
     return count;
 }
 
-/// Calls `use` with all before each place where a tag sets `attribute` to false.
-template <typename Use>
-void forEachFalse(std::string_view x3d, std::string_view attribute, const Use& use) {
-    constexpr std::size_t kMostBehind = sizeof(" = 'false'");
-    for (std::size_t at = x3d.find(attribute, 1); at < x3d.size();
-         at = x3d.find(attribute, at + 1)) {
-        const std::string_view set = x3d.substr(at - 1, 1 + attribute.size() + kMostBehind);
-        if (xmlAttribute(set, attribute) == "false")
-            use(x3d.substr(0, at));
-    }
-}
-
 /// X3D 4.0 has such; scenes of before have them out of their switches.
 std::uint64_t countHidden(std::string_view x3d) {
+    constexpr std::string_view kAttribute = "visible";
+    constexpr std::size_t kMostBehind = sizeof(" = 'false'");
     std::uint64_t count = 0;
-    forEachFalse(x3d, "visible", [&](std::string_view) { ++count; });
+    for (std::size_t at = x3d.find(kAttribute, 1); at < x3d.size();
+         at = x3d.find(kAttribute, at + 1)) {
+        const std::string_view set = x3d.substr(at - 1, 1 + kAttribute.size() + kMostBehind);
+        count += xmlAttribute(set, kAttribute) == "false" ? 1 : 0;
+    }
     return count;
 }
 
 /// Assimp has them as if their corners went counter-clockwise, as it does IndexedFaceSets, which
 /// are mended (x3d_text.h), and no other shapes.
 std::uint64_t countClockwiseTriangleSets(std::string_view x3d) {
+    constexpr std::string_view kOpening = "<TriangleSet";
     std::uint64_t count = 0;
-    forEachFalse(x3d, "ccw", [&](std::string_view before) {
-        const std::string_view tag = before.substr(std::min(before.rfind('<'), before.size()));
-        count += tag.starts_with("<TriangleSet") ? 1 : 0;
-    });
+    for (std::size_t at = x3d.find(kOpening); at < x3d.size();) {
+        const std::string_view tag = x3d.substr(at, endOfTag(x3d.substr(at)));
+        count += xmlAttribute(tag, "ccw") == "false" ? 1 : 0;
+        at = x3d.find(kOpening, at + tag.size());
+    }
     return count;
 }
 

@@ -101,7 +101,17 @@ struct Source {
     std::string_view x3d;
     bool hasMaterials;
     std::uint64_t verticesLeft;  ///< for strips: a file has no more vertices than bytes
+    std::size_t shapeEnd = 0;    ///< the last found; nobody looks before it again
+    std::size_t appearance = 0;  ///< the same
 };
+
+/// Where `what` is next, from `from` on, which is never less than before; `found` keeps it.
+std::size_t next(std::string_view x3d, std::string_view what, std::size_t from,
+                 std::size_t& found) {
+    if (found < from)
+        found = x3d.find(what, from);
+    return found;
+}
 
 std::string stripsForAssimp(std::string_view tag, Source& source) {
     const std::string indices =
@@ -154,11 +164,12 @@ std::string facesForAssimp(std::string_view tag) {
 std::string shapeForAssimp(std::string_view tag, Source& source) {
     constexpr std::string_view kPlain =
         "<Appearance><Material diffuseColor='0.8 0.8 0.8'/></Appearance>";
+    if (!source.hasMaterials || tag.ends_with("/>"))
+        return std::string(tag);
     const auto begin = static_cast<std::size_t>(tag.data() - source.x3d.data()) + tag.size();
-    const std::string_view content =
-        source.x3d.substr(begin, source.x3d.find("</Shape", begin) - begin);
-    const bool isPlain =
-        source.hasMaterials && !tag.ends_with("/>") && content.find("<Appearance") == content.npos;
+    const std::size_t end = next(source.x3d, "</Shape", begin, source.shapeEnd);
+    const std::size_t appearance = next(source.x3d, "<Appearance", begin, source.appearance);
+    const bool isPlain = appearance >= end;
     return std::string(tag).append(isPlain ? kPlain : std::string_view());
 }
 
@@ -204,7 +215,8 @@ std::string withoutCommas(std::string_view tag) {
 }  // namespace
 
 std::string x3dForAssimp(std::string_view x3d) {
-    Source source{x3d, x3d.find("<Material") != x3d.npos, x3d.size()};
+    Source source{
+        .x3d = x3d, .hasMaterials = x3d.find("<Material") != x3d.npos, .verticesLeft = x3d.size()};
     std::string result;
     std::size_t copied = 0;
     for (std::size_t at = x3d.find('<'); at < x3d.size();) {

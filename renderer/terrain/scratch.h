@@ -23,7 +23,9 @@ namespace eyrie::terrain {
 /// Any thread may read and write any piece. A failure of the disk is kept: reads then give zeros,
 /// and status() says what happened; whoever fills or uses a scratch looks there before going on.
 /// What was never written reads as zeros, too. In the file each piece has a checksum behind it:
-/// that there is something else than what was written, or nothing any more, is a failure, DataLoss.
+/// that there is something else than what was written, or that the file is shorter, is a failure,
+/// DataLoss. Zeros over a piece and its checksum, as of a hole punched into the file, are not told
+/// from what was never written.
 class Scratch {
 public:
     using Piece = std::shared_ptr<const std::byte[]>;

@@ -229,12 +229,36 @@ TEST_F(SceneFiles, AddressesThatAreNotReadAreNoFilesThatAreMissing) {
     }
 }
 
+/// From a link the system goes up to where its target lies.
+TEST_F(SceneFiles, WhatIsNamedByWayOfALinkIsWhatTheSystemTakesItFor) {
+    fs::create_directories(folder_.path("far/inner"));
+    fs::create_directory_symlink(folder_.path("far/inner"), folder_.path("link"));
+    const auto made = cache_.dataFor(writeBall(folder_, 1), fabric::ObjectKind::Mesh);
+    ASSERT_TRUE(made.ok()) << made.status();
+    fs::copy_file(*made, folder_.path("far/m.eym"));
+    std::ofstream(folder_.path("scene.json")) << R"({"objects":[{"mesh":"link/../m.eym"}]})";
+    for (const std::string& named : {folder_.path("link/../m.eym"), folder_.path("scene.json")}) {
+        for (const bool hasOther : {false, true}) {
+            if (hasOther)
+                std::ofstream(folder_.path("m.eym")) << "another";
+            const auto scene = assemble({named});
+            ASSERT_TRUE(scene.ok()) << named << ": " << scene.status();
+            EXPECT_TRUE(fs::equivalent(scene->objects.front().path, folder_.path("far/m.eym")));
+        }
+        fs::remove(folder_.path("m.eym"));
+    }
+}
+
 TEST_F(SceneFiles, WhatCannotBeDrawnFromAnAddressIsToldWithWhatCan) {
     for (const char* mesh : {"s3://bucket/m.ply", "/vsis3/bucket/m.ply", "https://h/m.obj"})
         EXPECT_THAT(assemble({mesh}).status().ToString(),
                     testing::AllOf(testing::HasSubstr("download or unpack this one"),
                                    testing::HasSubstr("`eyrie import mesh`"),
                                    testing::Not(testing::HasSubstr("write /vsi"))));
+    std::ofstream(folder_.path("mesh.json")) << R"({"objects":[{"mesh":"s3://bucket/m.ply"}]})";
+    EXPECT_THAT(assemble({folder_.path("mesh.json")}).status().ToString(),
+                testing::AllOf(testing::HasSubstr("download or unpack this one"),
+                               testing::Not(testing::HasSubstr("write /vsi"))));
     EXPECT_THAT(assemble({"/vsis3/bucket/dem.tif"}).status().ToString(),
                 testing::HasSubstr("`eyrie import terrain` makes of this one"));
     EXPECT_THAT(assemble({"s3://bucket/m.eym"}).status().ToString(),

@@ -302,6 +302,8 @@ TEST_F(ApiBench, SaysWhatFailedInTheTermsOfTheRequest) {
         {"m.ply: is not what " + place +
              "/m.eym was imported from; import it again, or name what it was with --source",
          "m.ply: is not what m.eym was imported from; import it again"},
+        {"https://host" + place + "/dem.eym: the server answers 503",
+         "https://host" + place + "/dem.eym: the server answers 503"},
         {"allow more with --reference-memory, or measure fewer --reference-frames, a smaller "
          "--size or a part of the scene",
          "allow more with --import-memory of the server, or measure fewer referenceFrames, a "

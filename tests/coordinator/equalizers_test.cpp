@@ -321,8 +321,9 @@ TEST(MonitorEqualizer, HasPicturesReadAsSmallAsTheyAreShown) {
 }
 
 /// A wall of 1280 x 720 whose picture, frame "w", comes to these, and the places of the compounds
-/// that take it: 2 and 3.
-Balanced wallWithMonitors(const std::string& first, const std::string& second) {
+/// that take it: 2 and 3. `other` is what that of the first does in its canvas's other layout.
+Balanced wallWithMonitors(const std::string& first, const std::string& second,
+                          const std::string& other = "") {
     const auto window = [](const char* channel, int width, int height) {
         return fmt::format("window {{ viewport [ 0 0 {} {} ] channel {{ name \"{}\" }} }} ", width,
                            height, channel);
@@ -331,14 +332,14 @@ Balanced wallWithMonitors(const std::string& first, const std::string& second) {
     config::Findings findings;
     config::Configuration configuration = config::readEqc(
         "server { config { appNode { pipe { " + window("wall", 1280, 720) + window("a", 640, 90) +
-            window("b", 320, 360) + "} } layout { view { } } " + canvas + "wall\" } } " + canvas +
-            "a\" } } " + canvas +
+            window("b", 320, 360) + "} } layout { view { } } layout { view { } } " + canvas +
+            "wall\" } } canvas { layout 0 layout 1 segment { channel \"a\" } } " + canvas +
             "b\" } }\n"
             "compound { compound { channel ( canvas 0 segment 0 layout 0 view 0 ) outputframe { "
             "name \"w\" zoom [ .75 .125 ] } }\n"
             "compound { channel ( canvas 1 segment 0 layout 0 view 0 ) " +
             first + " }\ncompound { channel ( canvas 2 segment 0 layout 0 view 0 ) " + second +
-            " } } } }",
+            " }\ncompound { channel ( canvas 1 segment 0 layout 1 view 0 ) " + other + " } } } }",
         findings);
     EXPECT_FALSE(findings.hasErrors()) << config::describe(findings, "the test's");
     return Balanced(std::move(configuration));
@@ -386,6 +387,12 @@ TEST(MonitorEqualizer, LeavesWhatOthersTakeAtLeastAsItIsWritten) {
     Balanced wall = wallWithMonitors(kMonitor, "inputframe { name \"w\" }");
     wall.apply();
     EXPECT_EQ(wallZoom(wall), fabric::Vec2(.75, .125));
+}
+
+TEST(MonitorEqualizer, LeavesNothingForWhoTakesItInALayoutThatIsNotShown) {
+    Balanced wall = wallWithMonitors(kMonitor, kMonitor, "inputframe { name \"w\" }");
+    wall.apply();
+    EXPECT_EQ(wallZoom(wall), fabric::Vec2(.5, .5));
 }
 
 TEST(MonitorEqualizer, ReducesTheFramesOfBothEyes) {

@@ -191,6 +191,24 @@ TEST_F(HttpAccess, WhoSendsAllOfABodyThatIsTooLongFirstReadsThatItIs) {
                                                  HasSubstr("longer than 8 MiB")));
 }
 
+TEST_F(HttpAccess, ALongChangeThatDoesNotSayItsLengthIsToldTo) {
+    start({}, false);
+    const std::string piece = fmt::format("100000\r\n{}\r\n", std::string(0x100000, ' '));
+    for (const auto& [target, saysWhat] :
+         {std::pair<const char*, bool>{"PUT /api/v1/flights/a", true}, {"POST /login", false}}) {
+        tcp::socket socket = connect();
+        error_code ignored;
+        asio::write(socket,
+                    asio::buffer(fmt::format("{} HTTP/1.1\r\nHost: localhost\r\n"
+                                             "Transfer-Encoding: chunked\r\n\r\n{}{}",
+                                             target, piece, piece)),
+                    ignored);
+        const std::string answer = answerOn(socket);
+        EXPECT_THAT(answer, HasSubstr("longer than 1 MiB")) << target;
+        EXPECT_EQ(answer.find("say its Content-Length") != answer.npos, saysWhat) << target;
+    }
+}
+
 TEST_F(HttpAccess, WhatWouldStillComeOfARefusedRequestIsNotWaitedForForEver) {
     ServerOptions options;
     options.headerTimeout = milliseconds(500);

@@ -112,12 +112,18 @@ protected:
         EXPECT_EQ(coordinator_->frames().status().scene.objects.front().name, name);
     }
 
-    std::string sceneInFile() const {
+    v1::KeptState inFile() const {
         std::ifstream stream(file());
         const std::string json(std::istreambuf_iterator<char>(stream), {});
         v1::KeptState state;
         EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(json, &state).ok());
-        return state.scene().scene().objects(0).name();
+        return state;
+    }
+    std::string sceneInFile() const { return inFile().scene().scene().objects(0).name(); }
+    /// All is written when it has ended.
+    bool keepsAScene() {
+        coordinator_.reset();
+        return inFile().scene().has_scene();
     }
 
     test::TemporaryFolder folder_;
@@ -201,22 +207,27 @@ TEST_F(KeptState, GivesWayToAnotherConfigurationOfTheCommandLine) {
 
 TEST_F(KeptState, EndsWhereTheCommandLinesSceneIsSetAgain) {
     setScene();
-    ASSERT_EQ(send("PUT", "/scene",
-                   R"({"objects":[{"mesh":"/elsewhere/first.eym","name":"started with"}]})"),
-              200);
-    options_.scene.objects.front().name = "started with instead";
+    ASSERT_TRUE(keepsAScene());
     start();
-    expectScene("started with instead");
+    ASSERT_EQ(send("PUT", "/scene",
+                   R"({"objects":[{"mesh":"/elsewhere/first.eym","name":"started with",)"
+                   R"("colour":[0,0,0]}]})"),
+              200);
+    EXPECT_FALSE(keepsAScene());
 }
 
 /// Of colours that a scene does not say, numbers of another kind are told: these round.
 TEST_F(KeptState, EndsWhereTheCommandLinesSceneIsSetAsItIsTold) {
-    const std::string told = get("/scene");
-    setScene();
-    ASSERT_EQ(send("PUT", "/scene", told), 200);
-    options_.scene.objects.front().name = "started with instead";
-    start();
-    expectScene("started with instead");
+    std::filesystem::create_directory_symlink(data(), folder_.path("link"));
+    for (const char* const path : {"/elsewhere/first.eym", "link/a.eym"}) {
+        options_.scene.objects.front().path =
+            *path == '/' ? path : (std::filesystem::path(folder_.path("")) / path).string();
+        start();
+        const std::string told = get("/scene");
+        setScene();
+        ASSERT_EQ(send("PUT", "/scene", told), 200) << told;
+        EXPECT_FALSE(keepsAScene()) << path;
+    }
 }
 
 TEST_F(KeptState, HasItsFilesByTheirNamesWhereTheCommandLineGoesByALink) {

@@ -369,6 +369,19 @@ TEST(PlanCheck, WarnsOfPartsOfTheDataThatComeWithoutDepth) {
               "and no DEPTH, so it covers what is nearer; buffer [ COLOR DEPTH ] compares them\n");
 }
 
+/// Browsers ask for smaller ones, which are drawn.
+TEST(PlanCheck, LooksAtWhatIsLargerThanPicturesMayBeAsAtWhatIsSmaller) {
+    const std::string compounds =
+        "compound { channel ( segment 0 view \"v\" ) compound { range [ 0 .5 ] }\n"
+        "compound { channel \"b\" range [ .5 .75 ]\noutputframe { name \"f\" } } "
+        "inputframe { name \"f\" } }";
+    const std::string small = foundIn(withCompounds(compounds));
+    EXPECT_THAT(small, testing::AllOf(HasSubstr("no DEPTH"), HasSubstr("nothing draws 75 %")));
+    const std::string large = foundIn(withCompounds(compounds, "40000 30000"));
+    EXPECT_THAT(large, testing::AllOf(HasSubstr("ask for a smaller one"), HasSubstr("no DEPTH"),
+                                      HasSubstr("nothing draws 75 %")));
+}
+
 /// Two that draw halves of the data, each of the whole picture, and send each other a half of that:
 /// then "b" has all of the data in its upper half, whose depth nobody needs.
 std::string directSend(std::string_view above, std::string_view first, std::string_view second,

@@ -22,13 +22,14 @@ void giveZooms(const Zooms& zooms, std::vector<config::Frame>& frames) {
         frames[i].zoom = zooms[i];
 }
 
+/// On a canvas that is asked for, in the layout that it shows.
 bool isAskedFor(const Turn& turn, const config::ResolvedCompound& compound) {
     const std::vector<std::size_t>& canvases = turn.facts.canvases;
-    return canvases.empty() ||
-           (compound.destination &&
-            std::ranges::find(
-                canvases, turn.facts.resolved.destinations[*compound.destination].index.canvas) !=
-                canvases.end());
+    if (!compound.destination)
+        return canvases.empty();
+    const config::Destination& shown = turn.facts.resolved.destinations[*compound.destination];
+    return shown.isShown &&
+           (canvases.empty() || std::ranges::find(canvases, shown.index.canvas) != canvases.end());
 }
 
 /// The frame's for who takes it so: for a monitor at work what that says, for others `written`.

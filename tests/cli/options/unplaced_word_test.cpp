@@ -46,7 +46,16 @@ TEST(UnplacedWord, IsToldToGoBehindItsCommandWhereItStandsBeforeIt) {
               "'--json' stands before the command; write `eyrie import mesh --json ...`");
 }
 
+TEST(UnplacedWord, IsNotToldToGoWhereItIsUnknownToo) {
+    EXPECT_EQ(about({"--jsom", "info"}),
+              "'--jsom' is nothing that eyrie info knows, did you mean '--json'?");
+    EXPECT_EQ(about({"improt", "import", "mesh"}),
+              "'improt' is nothing that eyrie knows, did you mean 'import'?");
+}
+
 TEST(UnplacedWord, IsNoneWhereSomethingElseIsWrong) {
+    EXPECT_EQ(about({"info", "--"}), "parsed");
+    EXPECT_EQ(about({"info", "--", "a.eyt"}), "'a.eyt' is nothing that eyrie knows");
     EXPECT_EQ(about({"info", "--output"}), "");
     EXPECT_EQ(about({"info", "--json"}), "parsed");
 }

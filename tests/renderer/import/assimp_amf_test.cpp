@@ -67,7 +67,8 @@ TEST(AssimpReader, CountsObjectsOfAmfThatHaveSeveralMeshes) {
 std::string amfOfVolumes(const std::string& object, const std::string& first,
                          const std::string& second) {
     std::string amf =
-        "<?xml version=\"1.0\"?><amf><material id=\"7\"><color><r>0</r><g>0</g><b>1</b>"
+        "<?xml version=\"1.0\"?><amf unit=\"meter\"><material "
+        "id=\"7\"><color><r>0</r><g>0</g><b>1</b>"
         "</color></material><object id=\"0\">" +
         object + "<mesh><vertices>";
     for (int x = 0; x < 3; ++x)

@@ -57,6 +57,14 @@ TEST(AssimpReader, SkewsNodesOfCollada) {
     EXPECT_EQ(colladaForAssimp(tooFar), tooFar) << "which leads to the second axis";
 }
 
+TEST(ColladaForAssimp, MendsTheOuterOfSkewsWithinEachOther) {
+    const std::string skew = "<skew>45 0 1 0 1 0 0 ";
+    const std::string mended = colladaForAssimp(skew + skew + "</skew> and what follows");
+    EXPECT_TRUE(mended.starts_with("<matrix>")) << mended;
+    EXPECT_TRUE(mended.ends_with("</matrix> and what follows")) << mended;
+    EXPECT_EQ(mended.find("<skew>"), mended.npos) << mended;
+}
+
 TEST(AssimpReader, SkewsNodesOfColladaFromAxesThatAreNotAtRightAngles) {
     // From 45 degrees before y, along x, to 45 degrees behind it.
     EXPECT_EQ(upperCorner("<skew>90 -1 1 0 1 0 0</skew>"), fabric::Vec3(2, 1, 0));

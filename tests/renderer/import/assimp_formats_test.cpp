@@ -254,7 +254,7 @@ private:
 };
 
 std::string amf() {
-    return "<?xml version=\"1.0\"?><amf><object id=\"1\"><mesh><vertices>" +
+    return "<?xml version=\"1.0\"?><amf unit=\"meter\"><object id=\"1\"><mesh><vertices>" +
            corners("<vertex><coordinates><x>{1}</x><y>{2}</y><z>{3}</z></coordinates></vertex>") +
            "</vertices><volume>" +
            faces("<triangle><v1>{1}</v1><v2>{2}</v2><v3>{3}</v3></triangle>") +

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cctype>
+#include <cstddef>
+#include <cstring>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include "renderer/import/assimp_reader.h"
 #include "renderer/import/stl_text.h"
@@ -58,6 +61,15 @@ TEST(AssimpReader, ReadsTextStlInCapitalsAndBehindBlankLines) {
 TEST(StlTextForAssimp, LeavesAsTheyAreFilesThatAreReadRightly) {
     EXPECT_FALSE(stlTextForAssimp("solid Of Names\nfacet normal 1E3 0 0\nendsolid Of Names"));
     EXPECT_FALSE(stlTextForAssimp("Solid" + std::string(79, '\0'))) << "binary";
+    // As many facets as bytes of its count that are no zeros say, and letters among its numbers.
+    constexpr std::size_t kBytes = 84 + std::size_t{50} * 0x01010101;
+    void* const sparse = mmap(nullptr, kBytes, PROT_READ | PROT_WRITE,
+                              MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    ASSERT_NE(sparse, MAP_FAILED);
+    const std::string begin = "solid part" + std::string(70, ' ') + "\x01\x01\x01\x01\nAA\n";
+    std::memcpy(sparse, begin.data(), begin.size());
+    EXPECT_FALSE(stlTextForAssimp({static_cast<const char*>(sparse), kBytes})) << "binary";
+    munmap(sparse, kBytes);
     EXPECT_FALSE(stlTextForAssimp(""));
     EXPECT_FALSE(stlTextForAssimp(" \nsoli"));
 }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/import/assimp_reader.h"
+#include "renderer/import/x3d_caveats.h"
 #include "renderer/import/x3d_text.h"
 #include "tests/renderer/import/assimp_files.h"
 #include "tests/renderer/mesh/temporary_folder.h"
@@ -93,6 +94,16 @@ TEST(AssimpReader, CountsWhatX3dHidesAndTrianglesThatAreSeenFromBehind) {
     EXPECT_THAT(notesOf("", "TriangleSet ccw = \"false\""),
                 ElementsAre(HasSubstr("1 TriangleSets have their back in front")));
     EXPECT_THAT(notesOf("", "TriangleSet ccw='true'"), IsEmpty());
+}
+
+/// As of many that name one by USE, or that do not end: some milliseconds, where it was minutes.
+TEST(X3dForAssimp, LooksAtEachByteAFewTimesHoweverManyShapesThereAre) {
+    std::string x3d = "<Appearance><Material/></Appearance>";
+    for (int i = 0; i < 200'000; ++i) x3d += i % 2 == 0 ? "<Shape USE='a'/>" : "<Shape>";
+    EXPECT_GT(x3dForAssimp(x3d).size(), x3d.size());
+    std::string comment = "<!-- ";
+    for (int i = 0; i < 500'000; ++i) comment += " ccw='false'";
+    EXPECT_THAT(x3dCaveats(comment + " -->"), IsEmpty());
 }
 
 /// Each set may say in a few bytes that it has as many vertices as the file has bytes.

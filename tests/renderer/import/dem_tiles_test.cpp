@@ -201,6 +201,37 @@ TEST_F(DemMosaic, APlaneIsAPlaneWhereAFinerRasterLiesInAHoleAndNothingElseIsCove
               30 * 30);
 }
 
+/// Around the hole rims tell something over more posts than are resampled at once.
+TEST_F(DemMosaic, APlaneIsAPlaneWhereARastersPixelsAreFarWiderThanPosts) {
+    constexpr double kPixel = 1500, kWest = 500000, kNorth = 5212000;
+    constexpr double kHole = 3 * kPixel;  // from the north-western corner
+    const test::Raster coarse{.west = kWest,
+                              .north = kNorth,
+                              .pixel = kPixel,
+                              .columns = 8,
+                              .rows = 8,
+                              .height = [&](double x, double y) {
+                                  return x > kWest + kHole && x < kWest + kHole + kPixel &&
+                                                 y < kNorth - kHole && y > kNorth - kHole - kPixel
+                                             ? -9999
+                                             : slope(x, y);
+                              }};
+    const test::Raster fine{.west = kWest + kHole,
+                            .north = kNorth - kHole,
+                            .columns = 150,
+                            .rows = 150,
+                            .height = slope};
+    const auto dem = test::readDems({write(coarse), write(fine)});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    const double inside = 7 * kPixel;
+    const auto [posts, open] = onSlope(*dem, [&](double x, double y) {
+        return x > kWest + kPixel && x < kWest + inside && y < kNorth - kPixel &&
+               y > kNorth - inside;
+    });
+    EXPECT_GT(posts, 800000);
+    EXPECT_EQ(open, 0);
+}
+
 /// The fine one is of a zone's metres, the coarse one, in degrees, lies around it; between them are
 /// posts in pixels of neither.
 TEST_F(DemMosaic, APlaneIsAPlaneWhereRastersOfTwoCrsMeet) {
