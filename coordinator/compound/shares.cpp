@@ -5,11 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/config/equalizer_limits.h"
+
 namespace eyrie::compound {
 namespace {
 
 constexpr double kSlack = 1e-3;  // thirds are written as .3333 and .6667
-constexpr double kMostZoom = 64;
 constexpr std::int64_t kMostShares = 16384;
 
 bool isShare(double begin, double size) {
@@ -17,7 +18,7 @@ bool isShare(double begin, double size) {
 }
 
 bool isZoom(const fabric::Vec2& zoom) {
-    return zoom.x > 0 && zoom.y > 0 && zoom.x <= kMostZoom && zoom.y <= kMostZoom;
+    return zoom.x > 0 && zoom.y > 0 && zoom.x <= config::kMostZoom && zoom.y <= config::kMostZoom;
 }
 
 bool isPart(std::int64_t index, std::int64_t count) {
@@ -66,7 +67,7 @@ private:
     void zoom(std::string_view what, const T& of, const fabric::Vec2& zoom) {
         if (!isZoom(zoom))
             wrong(what, of, fmt::format("the zoom [ {} {} ]", zoom.x, zoom.y),
-                  fmt::format("numbers above 0, up to {}", kMostZoom));
+                  fmt::format("numbers above 0, up to {}", config::kMostZoom));
     }
 
     template <typename T>

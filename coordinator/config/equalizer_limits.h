@@ -5,8 +5,11 @@
 
 #include "fabric/vec.h"
 
-/// What an equalizer's settings may be, in files and while it runs.
+/// What an equalizer's settings may be, in files and while it runs, and what it may set.
 namespace eyrie::config {
+
+/// Of a compound or a frame, either way.
+inline constexpr double kMostZoom = 64;
 
 inline constexpr double kMostEqualizerPixels = 1e9;
 

@@ -55,6 +55,12 @@ double mostUnder(double uneven, double degrees) {
     return std::isfinite(half) ? glm::degrees(2 * half) : 180;
 }
 
+/// Of a node's material, whose indices begin at `first`.
+IndexRun runOf(const mesh::MaterialRange& range, GLsizei first) {
+    return {first, static_cast<GLsizei>(range.indexCount),
+            static_cast<GLsizei>(range.frontIndexCount)};
+}
+
 class MeshDrawable : public Drawable {
 public:
     MeshDrawable(const fabric::SceneObject& object, MeshPrograms& programs,
@@ -122,6 +128,11 @@ private:
                                 fabric::FrameStatistics& statistics);
     absl::Status drawPoints(const Piece& piece, const FrameState& frame,
                             fabric::FrameStatistics& statistics);
+    void drawSides(const SeenTriangles& triangles, const IndexRun& whole, const Piece& piece,
+                   const FrameState& frame, const HiddenBacks& backs) const;
+    void drawOpaque(const SeenTriangles& triangles, const IndexRun& run,
+                    const mesh::Material& material, const Piece& piece,
+                    const HiddenBacks& backs) const;
     void drawMaterial(const SeenTriangles& triangles, const IndexRun& run,
                       const mesh::Material& material, const Piece& piece,
                       const HiddenBacks& backs) const;
@@ -250,8 +261,7 @@ absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameS
             source(*node);
             colour(piece, frame);
             program->depthScale(limit.holdTo(piece.bounds));
-            const IndexRun all{0, node->indexCount, fronts};
-            backs.draw(seenOf(piece, seen), piece, all.within(piece), singleSided_);
+            drawSides(seenOf(piece, seen), {0, node->indexCount, fronts}, piece, frame, backs);
             statistics.triangles += piece.triangles;
         }
         if (frame.look.tileBounds) {
@@ -264,22 +274,46 @@ absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameS
     return absl::OkStatus();
 }
 
+/// All of a piece in one colour, `whole` being its node's: with the sides that its materials have,
+/// but for lines, which have none.
+void MeshDrawable::drawSides(const SeenTriangles& triangles, const IndexRun& whole,
+                             const Piece& piece, const FrameState& frame,
+                             const HiddenBacks& backs) const {
+    const std::span<const mesh::MaterialRange> ranges = file_->ranges(piece.index);
+    if (ranges.empty() || frame.shading == fabric::Shading::Wireframe)
+        return backs.draw(triangles, piece, whole.within(piece), singleSided_);
+    GLsizei first = 0;
+    for (const mesh::MaterialRange& range : ranges) {
+        const IndexRun all = runOf(range, first);
+        if (const IndexRun run = all.within(piece); run.count > 0)
+            drawOpaque(triangles, run, file_->materials()[range.material], piece, backs);
+        first += all.count;
+    }
+}
+
+/// With the sides that a material has.
+void MeshDrawable::drawOpaque(const SeenTriangles& triangles, const IndexRun& run,
+                              const mesh::Material& material, const Piece& piece,
+                              const HiddenBacks& backs) const {
+    if (material.isOneSided())
+        return drawIndices(triangles, {run.first, run.count, run.count});
+    const bool hasOneSide = singleSided_ && !material.isTwoSided() && !material.isSeeThrough();
+    backs.draw(triangles, piece, run, hasOneSide);
+}
+
 /// Of what is blended the far sides first: right by itself where a piece is convex.
 void MeshDrawable::drawMaterial(const SeenTriangles& triangles, const IndexRun& run,
                                 const mesh::Material& material, const Piece& piece,
                                 const HiddenBacks& backs) const {
+    if (!material.isBlended())
+        return drawOpaque(triangles, run, material, piece, backs);
     const IndexRun oneSide{run.first, run.count, run.count};
-    if (material.isBlended() && !material.isOneSided()) {
+    if (!material.isOneSided()) {
         glCullFace(GL_FRONT);
         drawIndices(triangles, oneSide);
         glCullFace(GL_BACK);
     }
-    if (material.isBlended() || material.isOneSided()) {
-        drawIndices(triangles, oneSide);
-        return;
-    }
-    const bool hasOneSide = singleSided_ && !material.isTwoSided() && !material.isSeeThrough();
-    backs.draw(triangles, piece, run, hasOneSide);
+    drawIndices(triangles, oneSide);
 }
 
 /// Uses the program that draws a material.
@@ -332,8 +366,7 @@ absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const F
         GLsizei first = 0;
         for (const mesh::MaterialRange& range : file_->ranges(piece.index)) {
             const mesh::Material& material = file_->materials()[range.material];
-            const IndexRun all{first, static_cast<GLsizei>(range.indexCount),
-                               static_cast<GLsizei>(range.frontIndexCount)};
+            const IndexRun all = runOf(range, first);
             const IndexRun run = all.within(piece);
             if (material.isBlended() == (frame.layer == Layer::Blended) && run.count > 0) {
                 ASSIGN_OR_RETURN(const Program* program, prepare(material, frame, prepared));

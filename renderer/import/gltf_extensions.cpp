@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -174,7 +175,10 @@ std::vector<std::string> gltfCaveats(std::span<const std::byte> bytes) {
                                     "MSFT_texture_dds"};
     const std::string_view json = gltfChunksOf(bytes).json;
     std::vector<std::string> caveats;
+    std::set<std::string> seen;
     for (const std::string& extension : namesAt(json, "extensionsUsed")) {
+        if (!seen.insert(extension).second)
+            continue;
         for (const auto& [name, caveat] : kLosses)
             if (extension == name)
                 caveats.emplace_back(caveat);

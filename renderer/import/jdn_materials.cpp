@@ -65,11 +65,11 @@ void JdnMaterials::setId(std::int64_t id) {
 void JdnMaterials::setTexture(std::string_view path, TriangleMesh& mesh) {
     if (path.empty())
         return;
-    const TextureSource source{std::string(path), {}, 0};
-    const auto known = std::find(mesh.textures.begin(), mesh.textures.end(), source);
-    current_.texture = static_cast<std::int32_t>(known - mesh.textures.begin());
-    if (known == mesh.textures.end())
-        mesh.textures.push_back(source);
+    const auto [known, isNew] =
+        textures_.try_emplace(std::string(path), static_cast<std::int32_t>(mesh.textures.size()));
+    current_.texture = known->second;
+    if (isNew)
+        mesh.textures.push_back({known->first, {}, 0});
     keep();
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include <glm/vec2.hpp>
@@ -33,7 +34,7 @@ public:
     void setColour(const fabric::Rgba& colour);
     void setOpacity(std::uint8_t opacity);
     void setId(std::int64_t id);
-    /// `path` may be empty. Textures are added to `mesh`, each once.
+    /// `path` may be empty. Textures are added to `mesh`, always the same one, each once.
     void setTexture(std::string_view path, TriangleMesh& mesh);
 
     std::uint64_t count() const { return count_; }
@@ -48,6 +49,7 @@ private:
     bool isNumbered_ = false;
     std::int64_t id_ = 0;
     std::map<std::int64_t, JdnMaterial> materials_;
+    std::map<std::string, std::int32_t> textures_;  ///< their places in the mesh, by path
 };
 
 /// Gives the vertices from `firstVertex` on a material, and those of triangles from `firstTriangle`

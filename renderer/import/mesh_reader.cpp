@@ -69,14 +69,14 @@ bool looksLikePly(std::string_view text) {
 std::vector<std::string> mentionedFiles(std::string_view text, std::string_view mark,
                                         std::string_view ends) {
     std::vector<std::string> names;
-    for (std::size_t at = text.find(mark); at != std::string_view::npos;
-         at = text.find(mark, at + mark.size())) {
+    for (std::size_t at = text.find(mark); at != std::string_view::npos;) {
         const std::size_t begin = text.find_first_not_of(" \t:=\"", at + mark.size());
         if (begin == std::string_view::npos)
             break;
         const std::size_t end = std::min(text.find_first_of(ends, begin), text.size());
         if (end - begin < 1024)  // a name, not data
             names.emplace_back(text.substr(begin, end - begin));
+        at = text.find(mark, end);
     }
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());

@@ -6,10 +6,14 @@
 #include <cctype>
 #include <cstddef>
 
+#include "renderer/mesh/material.h"
+
 namespace eyrie::import {
 namespace {
 
 constexpr std::size_t kLongest = 1024;
+/// No model shows more; and twice as many of the longest are what memory holds meanwhile.
+constexpr std::size_t kMost = mesh::kMaxMaterials;
 
 /// Of what texture_files.h reads.
 constexpr std::array<std::string_view, 13> kEndings = {
@@ -33,6 +37,11 @@ bool isBoundary(char c) {
            std::string_view("\"'<>;").find(c) != std::string_view::npos;
 }
 
+void keepEachOnce(std::vector<std::string>& names) {
+    std::ranges::sort(names);
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+}
+
 }  // namespace
 
 std::vector<std::string> imagesNamedIn(std::string_view bytes) {
@@ -46,9 +55,13 @@ std::vector<std::string> imagesNamedIn(std::string_view bytes) {
         while (begin > 0 && dot - begin < kLongest && !isBoundary(bytes[begin - 1])) --begin;
         begin = std::min(bytes.find_first_not_of(' ', begin), dot);
         names.emplace_back(bytes.substr(begin, dot + 1 + length - begin));
+        if (names.size() < 2 * kMost)
+            continue;
+        keepEachOnce(names);
+        if (names.size() > kMost)
+            break;
     }
-    std::ranges::sort(names);
-    names.erase(std::unique(names.begin(), names.end()), names.end());
+    keepEachOnce(names);
     return names;
 }
 

@@ -150,12 +150,13 @@ std::vector<std::string> namesOfLibraries(std::string_view arguments) {
 std::vector<std::string> librariesOfObj(std::string_view obj) {
     constexpr std::string_view kLibrary = "mtllib";
     std::vector<std::string> names;
-    for (std::size_t at = obj.find(kLibrary); at != std::string_view::npos;
-         at = obj.find(kLibrary, at + kLibrary.size())) {
+    for (std::size_t at = obj.find(kLibrary); at != std::string_view::npos;) {
         const std::size_t line = obj.find_last_of("\r\n", at) + 1;
         std::string_view rest = obj.substr(at + kLibrary.size());
+        const std::string_view libraries = takeLine(rest);
         if (obj.substr(line, at - line).find('#') == std::string_view::npos)  // no comment
-            std::ranges::move(namesOfLibraries(takeLine(rest)), std::back_inserter(names));
+            std::ranges::move(namesOfLibraries(libraries), std::back_inserter(names));
+        at = obj.find(kLibrary, obj.size() - rest.size());
     }
     std::ranges::sort(names);
     names.erase(std::unique(names.begin(), names.end()), names.end());

@@ -45,6 +45,19 @@ std::optional<std::vector<Edge>> openEdges(const PackedMesh& mesh) {
     return open;
 }
 
+/// Whether at each point as many begin as end, as they do around holes. They do not where an edge
+/// was taken for another of the same hash and is not among them.
+bool areAroundHoles(const std::vector<Edge>& edges) {
+    std::vector<std::uint64_t> begins, ends;
+    for (const Edge& edge : edges) {
+        begins.push_back(edge.from);
+        ends.push_back(edge.to);
+    }
+    std::sort(begins.begin(), begins.end());
+    std::sort(ends.begin(), ends.end());
+    return begins == ends;
+}
+
 /// Edges by the holes they are around, those that share a point being around one.
 class Holes {
 public:
@@ -100,7 +113,7 @@ std::optional<fabric::Box> boxAround(const PackedMesh& mesh, std::span<const Tri
 
 std::optional<Lids> findLids(const PackedMesh& mesh) {
     std::optional<std::vector<Edge>> open = openEdges(mesh);
-    if (!open)
+    if (!open || !areAroundHoles(*open))
         return std::nullopt;
     Holes holes(*open);
     std::stable_sort(open->begin(), open->end(),

@@ -31,6 +31,7 @@ struct Lids {
 /// triangles.
 ///
 /// Edges are compared by 64-bit hashes: an open edge passes for none with a probability of 2^-64.
+/// Of meshes that are made so that hashes are the same: nothing, or too few.
 std::optional<Lids> findLids(const PackedMesh& mesh);
 
 /// Of a triangle between these positions, for each edge a number of its own, or less that number

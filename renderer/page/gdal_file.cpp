@@ -270,12 +270,13 @@ private:
                                            std::chrono::duration<double>(took).count(), reason));
         // If that fails GDAL takes the file as gone, in the handle that was open, too.
         absl::StatusOr<Handle> again = openAnew(url_);
+        const std::uint64_t size = again.ok() ? sizeOf(**again) : 0;  // while nobody else reads it
         {
             const std::lock_guard lock(mutex_);
             handle_ = again.ok() ? *again : nullptr;
         }
         RETURN_IF_ERROR(again.status());
-        RETURN_IF_ERROR(checkSize(sizeOf(**again)));
+        RETURN_IF_ERROR(checkSize(size));
         return unavailable(url_, what + reason);
     }
 

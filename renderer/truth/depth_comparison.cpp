@@ -231,6 +231,8 @@ private:
         while (hit.first < behind) {
             if (!endsBeside(x, y, hit.first))
                 return false;
+            if (hit.last == kNoHit)  // where the surface is not sure of an end, nothing is behind
+                break;
             const double from = hit.last * kBehind;
             hit = surface_.hitRange({ray.at(from), ray.direction});
             hit = {from + hit.first, from + hit.last};

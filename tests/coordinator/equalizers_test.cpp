@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "coordinator/config/equalizer_limits.h"
 #include "tests/coordinator/balanced_scene.h"
 
 namespace eyrie::equalizer {
@@ -233,6 +234,22 @@ TEST(DfrEqualizer, KeepsToTheLimitsOfThePicture) {
     EXPECT_EQ(balanced.at(1).pixelViewport.height, 128);
     for (int frame = 0; frame < 20; ++frame) balanced.draw([](const auto&) { return .001; });
     EXPECT_EQ(balanced.at(1).pixelViewport, (fabric::PixelViewport{0, 0, 1280, 720}));
+}
+
+/// A channel 67 times as high as what is shown, as on a page that is folded up.
+TEST(DfrEqualizer, EnlargesNoMoreThanPlansTake) {
+    config::Findings findings;
+    Balanced balanced(config::readEqc(
+        "config { appNode { pipe { window { viewport [ 0 0 16 16 ] channel { name \"a\" } } window "
+        "{ viewport [ 0 0 1920 1080 ] channel { name \"b\" } } } } layout { view { } } canvas { "
+        "layout 0 segment { channel \"a\" } } compound { channel ( segment 0 view 0 ) compound { "
+        "DFR_equalizer { framerate 20 } channel \"b\" outputframe { name \"large\" } } inputframe "
+        "{ name \"large\" } } }",
+        findings));
+    ASSERT_FALSE(findings.hasErrors()) << config::describe(findings, "the test's");
+    for (int frame = 0; frame < 20; ++frame) balanced.draw([](const auto&) { return .001; });
+    EXPECT_EQ(balanced.live.compounds[0].children[0].zoom,
+              fabric::Vec2(config::kMostZoom, config::kMostZoom));
 }
 
 TEST(TileEqualizer, HasChildrenFetchTilesWhileItIsOn) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -91,6 +92,22 @@ TEST(LoadEqualizer, KnowsARendererThatIsTenTimesSlowerWithin20FramesHoweverTheyB
                     << mode << ", " << run << ", " << frame;
             }
         }
+}
+
+TEST(LoadEqualizer, DividesDataWhateverItsBoundary) {
+    for (const double boundary : {1e-310, 1e-9, 1.0}) {
+        Balanced balanced = loadBalanced(2, "mode DB");
+        config::EqualizerTuning tuning;
+        tuning.boundaryRange = boundary;
+        ASSERT_TRUE(balanced.equalizers.tune(0, tuning).ok());
+        for (int frame = 0; frame < 10; ++frame) balanced.draw(Spot{{0, 0, 1, 1}});
+        double end = 0;
+        for (const config::Compound& child : balanced.live.compounds[0].children) {
+            EXPECT_EQ(child.range.begin, end) << boundary;
+            end = child.range.end;
+        }
+        EXPECT_EQ(end, 1) << boundary;
+    }
 }
 
 TEST(LoadEqualizer, FollowsALoadThatMoves) {

@@ -289,6 +289,27 @@ TEST_F(MeshMaterials, OneAndTwoSidesAreAsTheMaterialSays) {
     EXPECT_EQ(at(draw(), 0, 0), kRed);
 }
 
+/// Depth tells which square is seen: a metre and two behind the red one's.
+TEST_F(MeshMaterials, SidesStayWhereAnObjectHasAColour) {
+    import::TriangleMesh mesh;
+    mesh.materials = {{}, {.flags = mesh::kIsTwoSided}, {.flags = mesh::kIsOneSided}};
+    addSquare(mesh, 8, 0, kRed, 0);
+    addSquare(mesh, 4, -1, kGreen, 1);
+    addSquare(mesh, 2, -2, kBlue, 2);
+    add(std::move(mesh));
+    for (const double height : {-10.0, 10.0})
+        for (const bool isSingleSided : {false, true}) {
+            scene_.objects[0].singleSided = isSingleSided;
+            frame_.camera = {{0, 0, height}, {0, 0, 0}, {0, 1, 0}, 60};
+            frame_.look = {};
+            const fabric::Image own = draw();
+            frame_.look.objects = {{{0, Vec3(1, 1, 0)}}};
+            const fabric::Image coloured = draw();
+            EXPECT_EQ(coloured.depth, own.depth) << height << " " << isSingleSided;
+            EXPECT_NE(coloured.colour, own.colour);
+        }
+}
+
 import::TriangleMesh texturedSquare(){import::TriangleMesh mesh;
 mesh.materials = {{}, {.image = 0}};
 mesh.images = {mesh::encodeImage({256, 256, 0}, quarters(256))};

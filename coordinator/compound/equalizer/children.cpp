@@ -8,7 +8,8 @@ namespace {
 
 using config::SplitMode;
 
-/// Ranges are cut at multiples of it unless a boundary is given: no piece of data is so small.
+/// Ranges are cut at multiples of it unless a larger boundary is given: no piece of data is so
+/// small.
 constexpr double kRangeUnit = 1.0 / (1 << 20);
 
 CutAxes axesOf(SplitMode mode) {
@@ -110,8 +111,7 @@ std::optional<Whole> wholeOf(const config::ResolvedCompound& compound,
     rules.axes = axesOf(settings.mode);
     rules.damping = settings.damping;
     if (settings.mode == SplitMode::Db) {
-        const double unit = settings.boundaryRange.value_or(0);
-        rules.unitX = unit > 0 ? unit : kRangeUnit;
+        rules.unitX = std::max(settings.boundaryRange.value_or(0), kRangeUnit);
         rules.resistanceX = settings.resistanceRange.value_or(0);
         return whole;
     }

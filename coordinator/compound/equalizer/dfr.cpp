@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "coordinator/config/destinations.h"
+#include "coordinator/config/equalizer_limits.h"
 #include "fabric/channel_task.h"
 
 namespace eyrie::equalizer {
@@ -52,8 +53,9 @@ void Dfr::apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) {
     if (!compound->destination || !(shorter > 0) || !std::isfinite(shorter))
         return;
     const double least = std::min(1.0, kLeastPixels / shorter);
-    const double most = std::min(roomOf(turn, position_, shown),
-                                 fabric::kMaxViewPixels / std::max(shown.x, shown.y));
+    const double most = std::min({roomOf(turn, position_, shown),
+                                  fabric::kMaxViewPixels / std::max(shown.x, shown.y),
+                                  config::kMostZoom / std::max(written_.x, written_.y)});
     zoom_ = std::clamp(zoom_, least, std::max(least, most));
     turn.live[position_]->zoom = turn.facts.isComplete ? written_ : written_ * zoom_;
 }

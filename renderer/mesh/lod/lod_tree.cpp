@@ -10,6 +10,7 @@
 #include <absl/status/status.h>
 #include <glm/geometric.hpp>
 #include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "renderer/mesh/lod/components.h"
 #include "renderer/mesh/lod/patch_colours.h"
@@ -159,10 +160,14 @@ LodPart Builder::visit(std::size_t index, std::size_t depth) {
 }
 
 /// Only what surfaces of one piece do not need. Where sheets end is found once more: of a soup that
-/// is more than could be kept.
+/// is more than could be kept. Whoever makes them helps nobody else while others help: what it took
+/// on meanwhile could come to wait for what it makes here.
 const Components& Builder::components() {
     std::call_once(componentsMade_, [this] {
-        components_.emplace(mesh_, tree_, SheetEnds(mesh_, options_.goesOnAt), options_.goesOnAt);
+        oneapi::tbb::this_task_arena::isolate([this] {
+            components_.emplace(mesh_, tree_, SheetEnds(mesh_, options_.goesOnAt),
+                                options_.goesOnAt);
+        });
     });
     return *components_;
 }

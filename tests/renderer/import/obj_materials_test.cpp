@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/import/mesh_reader.h"
+#include "renderer/import/obj_textures.h"
 #include "tests/renderer/import/small_models.h"
 #include "tests/renderer/import/tga_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
@@ -19,6 +20,14 @@ namespace eyrie::import {
 namespace {
 
 using testing::HasSubstr;
+
+TEST(ObjMaterials, OfALineAreNamedOnce) {
+    EXPECT_THAT(librariesOfObj("mtllib a.mtl b c.mtl\n# mtllib d.mtl\nv 0 0 0\nmtllib e.mtl"),
+                testing::ElementsAre("a.mtl", "b c.mtl", "e.mtl"));
+    std::string line;
+    for (int i = 0; i < 50'000; ++i) line += "mtllib ";
+    EXPECT_LE(librariesOfObj(line).size(), 1U);
+}
 
 TEST(ObjMaterials, ReadsAnObjWithoutItsMaterials) {
     const test::TemporaryFolder folder;
