@@ -18,6 +18,7 @@ namespace eyrie {
 namespace {
 
 using fabric::Vec3;
+using import::TriangleMesh;
 
 constexpr int kCells = 400;
 constexpr int kCheck = 4;  ///< cells a side
@@ -28,21 +29,22 @@ constexpr double kOff = 8.5 / 255;
 
 bool isBright(int x, int y) { return (x / kCheck + y / kCheck) % 2 == 0; }
 
-import::TriangleMesh checkedPlane(){import::TriangleMesh mesh;
-for (int y = 0; y <= kCells; ++y)
-    for (int x = 0; x <= kCells; ++x) {
-        mesh.positions.emplace_back(x, y, 0);
-        const std::uint8_t shade = isBright(x, y) ? kBright : kDark;
-        mesh.colours.push_back({shade, shade, shade, 255});
-        const auto at = static_cast<std::uint32_t>(y * (kCells + 1) + x);
-        constexpr std::uint32_t kRow = kCells + 1;
-        if (x < kCells && y < kCells)
-            for (const mesh::Triangle& triangle :
-                 {mesh::Triangle{at, at + 1, at + kRow + 1}, {at, at + kRow + 1, at + kRow}})
-                mesh.triangles.push_back(triangle);
-    }
-return mesh;
-}  // namespace
+TriangleMesh checkedPlane() {
+    TriangleMesh mesh;
+    for (int y = 0; y <= kCells; ++y)
+        for (int x = 0; x <= kCells; ++x) {
+            mesh.positions.emplace_back(x, y, 0);
+            const std::uint8_t shade = isBright(x, y) ? kBright : kDark;
+            mesh.colours.push_back({shade, shade, shade, 255});
+            const auto at = static_cast<std::uint32_t>(y * (kCells + 1) + x);
+            constexpr std::uint32_t kRow = kCells + 1;
+            if (x < kCells && y < kCells)
+                for (const mesh::Triangle& triangle :
+                     {mesh::Triangle{at, at + 1, at + kRow + 1}, {at, at + kRow + 1, at + kRow}})
+                    mesh.triangles.push_back(triangle);
+        }
+    return mesh;
+}
 
 /// What the source shows at a place, as displayed; triangles are linear in its square.
 std::optional<double> shownAt(const Vec3& place) {
@@ -148,5 +150,5 @@ TEST_F(MeshColours, AreThoseOfTheSourceWithinThePromise) {
     EXPECT_GT(coloursDecide, 3);
 }
 
-}  // namespace eyrie
+}  // namespace
 }  // namespace eyrie

@@ -23,6 +23,7 @@ namespace {
 
 using fabric::Rgba;
 using fabric::Vec3;
+using import::TriangleMesh;
 
 constexpr int kSize = 96;
 constexpr Rgba kRed{255, 0, 0, 255}, kGreen{0, 255, 0, 255}, kBlue{0, 0, 255, 255},
@@ -40,7 +41,7 @@ std::vector<Rgba> quarters(int side) {
 }
 
 /// Adds a square of `side` metres around the z axis, facing up, with an image once over it.
-void addSquare(import::TriangleMesh& mesh, double side, double height, Rgba colour,
+void addSquare(TriangleMesh& mesh, double side, double height, Rgba colour,
                std::uint16_t material) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const auto& [x, y] : {std::array{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
@@ -66,7 +67,7 @@ protected:
         task_.wantsDepth = true;
     }
 
-    void add(import::TriangleMesh mesh, std::uint32_t leafTriangles = 100) {
+    void add(TriangleMesh mesh, std::uint32_t leafTriangles = 100) {
         fabric::SceneObject object;
         object.name = "mesh";
         object.path = folder_.file(std::to_string(scene_.objects.size()) + ".eym");
@@ -152,7 +153,7 @@ TEST_F(MeshMaterials, EachTexelOfAPaletteIsShownInItsColour) {
     for (int i = 0; i < 64; ++i)
         palette.push_back({static_cast<std::uint8_t>(37 * i), static_cast<std::uint8_t>(101 * i),
                            static_cast<std::uint8_t>(200 - 59 * i), 255});
-    import::TriangleMesh mesh;
+    TriangleMesh mesh;
     mesh.materials = {{}, {.image = 0}};
     mesh.images = {mesh::encodeImage({8, 8, 0}, palette)};
     const auto placeOf = [](int index) { return 0.8 * (index - 3.5); };
@@ -174,7 +175,7 @@ TEST_F(MeshMaterials, CoarserLevelsShowTheMeanOfTheLight) {
     std::vector<Rgba> checks;
     for (int i = 0; i < 256 * 256; ++i)
         checks.push_back((i + i / 256) % 2 == 0 ? kWhite : Rgba{0, 0, 0, 255});
-    import::TriangleMesh mesh;
+    TriangleMesh mesh;
     mesh.materials = {{}, {.image = 0}};
     mesh.images = {mesh::encodeImage({256, 256, 0}, checks)};
     addSquare(mesh, 3, 0, kWhite, 1);  // 25 pixels: the fourth level and some
@@ -185,7 +186,7 @@ TEST_F(MeshMaterials, CoarserLevelsShowTheMeanOfTheLight) {
 TEST_F(MeshMaterials, ATexturesHolesShowWhatIsBehindAndHaveNoDepth) {
     std::vector<Rgba> texels = quarters(16);
     for (int i = 0; i < 128; ++i) texels[static_cast<std::size_t>(i)].a = 0;  // red and green
-    import::TriangleMesh mesh;
+    TriangleMesh mesh;
     mesh.materials = {{}, {.image = 0, .alphaCutoff = 0.5F}};
     mesh.images = {mesh::encodeImage({16, 16, mesh::kHasAlpha}, texels)};
     addSquare(mesh, 8, 0, kWhite, 1);
@@ -202,7 +203,7 @@ TEST_F(MeshMaterials, ATexturesHolesShowWhatIsBehindAndHaveNoDepth) {
 /// Panes are sorted, whatever the order of objects; all lie over what is opaque.
 TEST_F(MeshMaterials, WhatIsBlendedIsDrawnFromBackToFront) {
     const Rgba blue{0, 0, 255, 128}, green{0, 255, 0, 64};
-    import::TriangleMesh floor, low, high;
+    TriangleMesh floor, low, high;
     addSquare(floor, 8, -1, kRed, 0);
     floor.textureCoordinates.clear();
     floor.materialOf.clear();
@@ -226,7 +227,7 @@ TEST_F(MeshMaterials, WhatIsBlendedIsDrawnFromBackToFront) {
 TEST_F(MeshMaterials, AColourOfAnObjectIsAllThatIsSeenOfIt) {
     std::vector<Rgba> texels = quarters(16);
     for (int i = 0; i < 128; ++i) texels[static_cast<std::size_t>(i)].a = 0;
-    import::TriangleMesh floor, pane, holed;
+    TriangleMesh floor, pane, holed;
     floor.materials = {{}, {.image = 0}};
     floor.images = {mesh::encodeImage({16, 16, 0}, quarters(16))};
     addSquare(floor, 8, -1, kWhite, 1);
@@ -253,7 +254,7 @@ TEST_F(MeshMaterials, AColourOfAnObjectIsAllThatIsSeenOfIt) {
 /// A pane of 6 metres before a floor of 8, one of them as lines, whatever the picture is.
 TEST_F(MeshMaterials, WhatIsBlendedIsNoLinesWhereTheRestIs) {
     const Rgba blue{0, 0, 255, 128};
-    import::TriangleMesh floor, pane;
+    TriangleMesh floor, pane;
     addSquare(floor, 8, -1, kRed, 0);
     floor.textureCoordinates.clear();
     floor.materialOf.clear();
@@ -272,13 +273,18 @@ TEST_F(MeshMaterials, WhatIsBlendedIsNoLinesWhereTheRestIs) {
     }
 }
 
-TEST_F(MeshMaterials, OneAndTwoSidesAreAsTheMaterialSays) {
-    import::TriangleMesh mesh;
+/// Below each other a large one of the object's sides, one of two and a small one of one.
+TriangleMesh squaresOfAllSides() {
+    TriangleMesh mesh;
     mesh.materials = {{}, {.flags = mesh::kIsTwoSided}, {.flags = mesh::kIsOneSided}};
     addSquare(mesh, 8, 0, kRed, 0);
     addSquare(mesh, 4, -1, kGreen, 1);
     addSquare(mesh, 2, -2, kBlue, 2);
-    add(std::move(mesh));
+    return mesh;
+}
+
+TEST_F(MeshMaterials, OneAndTwoSidesAreAsTheMaterialSays) {
+    add(squaresOfAllSides());
     frame_.camera = {{0, 0, -10}, {0, 0, 0}, {0, 1, 0}, 60};  // from below: only backs
     EXPECT_EQ(at(draw(), 0, 0), kGreen) << "that of one side is not there";
     EXPECT_EQ(at(draw(), 3.5, 0), kRed);
@@ -291,12 +297,7 @@ TEST_F(MeshMaterials, OneAndTwoSidesAreAsTheMaterialSays) {
 
 /// Depth tells which square is seen: a metre and two behind the red one's.
 TEST_F(MeshMaterials, SidesStayWhereAnObjectHasAColour) {
-    import::TriangleMesh mesh;
-    mesh.materials = {{}, {.flags = mesh::kIsTwoSided}, {.flags = mesh::kIsOneSided}};
-    addSquare(mesh, 8, 0, kRed, 0);
-    addSquare(mesh, 4, -1, kGreen, 1);
-    addSquare(mesh, 2, -2, kBlue, 2);
-    add(std::move(mesh));
+    add(squaresOfAllSides());
     for (const double height : {-10.0, 10.0})
         for (const bool isSingleSided : {false, true}) {
             scene_.objects[0].singleSided = isSingleSided;
@@ -310,12 +311,13 @@ TEST_F(MeshMaterials, SidesStayWhereAnObjectHasAColour) {
         }
 }
 
-import::TriangleMesh texturedSquare(){import::TriangleMesh mesh;
-mesh.materials = {{}, {.image = 0}};
-mesh.images = {mesh::encodeImage({256, 256, 0}, quarters(256))};
-addSquare(mesh, 8, 0, kWhite, 1);
-return mesh;
-}  // namespace
+TriangleMesh texturedSquare() {
+    TriangleMesh mesh;
+    mesh.materials = {{}, {.image = 0}};
+    mesh.images = {mesh::encodeImage({256, 256, 0}, quarters(256))};
+    addSquare(mesh, 8, 0, kWhite, 1);
+    return mesh;
+}
 
 TEST_F(MeshMaterials, TexturesLeaveTheirFinestLevelsWhereMemoryIsShort) {
     add(texturedSquare());
@@ -350,7 +352,7 @@ TEST_F(MeshMaterials, TexturesAreAsFineInARasterAsInItsView) {
     std::vector<Rgba> checks;
     for (int i = 0; i < 256 * 256; ++i)
         checks.push_back((i / 8 + i / 256 / 8) % 2 == 0 ? kWhite : Rgba{0, 0, 0, 255});
-    import::TriangleMesh square;
+    TriangleMesh square;
     square.materials = {{}, {.image = 0}};
     square.images = {mesh::encodeImage({256, 256, 0}, checks)};
     addSquare(square, 14, 0, kWhite, 1);
@@ -393,27 +395,28 @@ TEST_F(MeshMaterials, AnImageThatIsDamagedIsDrawnInItsMeanColourAndReported) {
 }
 
 /// Squares, opaque, with holes and blended by turns, each a node of its own, turned and stacked.
-import::TriangleMesh stack(){import::TriangleMesh mesh;
-mesh.materials = {{},
-                  {.image = 0},
-                  {.image = 0, .flags = mesh::kIsBlended},
-                  {.flags = mesh::kIsBlended},
-                  {.image = 0, .alphaCutoff = 0.5F}};
-std::vector<Rgba> texels = quarters(16);
-for (std::size_t i = 0; i < texels.size(); i += 3) texels[i].a = 90;
-mesh.images = {mesh::encodeImage({16, 16, mesh::kHasAlpha}, texels)};
-for (int i = 0; i < 40; ++i) {
-    const auto first = mesh.positions.size();
-    addSquare(mesh, 3, 0, {static_cast<std::uint8_t>(40 * i), 200, 90, 128},
-              static_cast<std::uint16_t>(i * 7 % 5));
-    for (std::size_t v = first; v < mesh.positions.size(); ++v) {
-        const Vec3 flat = mesh.positions[v];
-        const double turn = 0.7 * i;
-        mesh.positions[v] = Vec3(flat.x * std::cos(turn), flat.y, flat.x * std::sin(turn)) +
-                            Vec3(i % 5 - 2, i / 5 % 4 - 1.5, 0.3 * i - 6);
+TriangleMesh stack() {
+    TriangleMesh mesh;
+    mesh.materials = {{},
+                      {.image = 0},
+                      {.image = 0, .flags = mesh::kIsBlended},
+                      {.flags = mesh::kIsBlended},
+                      {.image = 0, .alphaCutoff = 0.5F}};
+    std::vector<Rgba> texels = quarters(16);
+    for (std::size_t i = 0; i < texels.size(); i += 3) texels[i].a = 90;
+    mesh.images = {mesh::encodeImage({16, 16, mesh::kHasAlpha}, texels)};
+    for (int i = 0; i < 40; ++i) {
+        const auto first = mesh.positions.size();
+        addSquare(mesh, 3, 0, {static_cast<std::uint8_t>(40 * i), 200, 90, 128},
+                  static_cast<std::uint16_t>(i * 7 % 5));
+        for (std::size_t v = first; v < mesh.positions.size(); ++v) {
+            const Vec3 flat = mesh.positions[v];
+            const double turn = 0.7 * i;
+            mesh.positions[v] = Vec3(flat.x * std::cos(turn), flat.y, flat.x * std::sin(turn)) +
+                                Vec3(i % 5 - 2, i / 5 % 4 - 1.5, 0.3 * i - 6);
+        }
     }
-}
-return mesh;
+    return mesh;
 }  // namespace eyrie
 
 TEST_F(MeshMaterials, EveryDecompositionGivesTheWholePicture) {
@@ -452,5 +455,5 @@ TEST_F(MeshMaterials, EveryDecompositionGivesTheWholePicture) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace
 }  // namespace eyrie

@@ -24,10 +24,11 @@ namespace {
 using fabric::Rgba;
 using fabric::Vec3;
 using fabric::Vec4;
+using import::TriangleMesh;
 using test::Levels;
 
 /// Of `colour` at each vertex, or of none.
-Levels levelsOf(import::TriangleMesh source, const std::function<Rgba(const Vec3&)>& colour,
+Levels levelsOf(TriangleMesh source, const std::function<Rgba(const Vec3&)>& colour,
                 const LodOptions& options = {.nodeTriangles = test::kNodeTriangles}) {
     if (colour)
         for (const Vec3& at : source.positions) source.colours.push_back(colour(at));
@@ -262,10 +263,11 @@ TEST(ColourReach, HoldsOfAPlaneWhoseChecksVanishAndIsNotManyTimesTooLong) {
     EXPECT_GT(found.offNearby, 10U);
 }
 
-import::TriangleMesh blended(import::TriangleMesh mesh){mesh.materials = {{.flags = kIsBlended}};
-mesh.materialOf.assign(mesh.positions.size(), 0);
-return mesh;
-}  // namespace
+TriangleMesh blended(TriangleMesh mesh) {
+    mesh.materials = {{.flags = kIsBlended}};
+    mesh.materialOf.assign(mesh.positions.size(), 0);
+    return mesh;
+}
 
 std::function<Rgba(const Vec3&)> veil(double side) {
     return [colour = checks(side)](const Vec3& at) { return Rgba{200, 90, 7, colour(at).r}; };
@@ -285,8 +287,8 @@ TEST(ColourReach, IsNoneOfOpacityThatIsNotDrawn) {
 }
 
 TEST(ColourReach, HoldsWhereVerticesOfOnePlaceHaveSeveralColours) {
-    import::TriangleMesh source = import::synthesizeMesh(6000, 5);
-    const import::TriangleMesh whole = source;
+    TriangleMesh source = import::synthesizeMesh(6000, 5);
+    const TriangleMesh whole = source;
     source.triangles.clear();
     // Two halves of the ball with vertices of their own along the equator.
     const auto beside = static_cast<std::uint32_t>(whole.positions.size());
@@ -353,5 +355,5 @@ TEST(ColourReach, IsNoneOfColoursThatChangeEvenly) {
     EXPECT_LE(levels.lod.levels[4].trianglesAfter, levels.mesh.triangles.size() / 20);
 }
 
-}  // namespace eyrie::mesh
+}  // namespace
 }  // namespace eyrie::mesh

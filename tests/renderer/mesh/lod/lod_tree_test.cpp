@@ -24,6 +24,7 @@
 namespace eyrie::mesh {
 namespace {
 
+using import::TriangleMesh;
 using test::kNodeTriangles;
 using test::Levels;
 using test::levelsOf;
@@ -123,8 +124,8 @@ TEST(LodTree, BordersDoNotStarveTheInside) {
 /// A bumpy ball with a crowd of small solids on it and some afar.
 const Levels& soup() {
     static const Levels levels = [] {
-        import::TriangleMesh source = import::synthesizeMesh(6000, 5);
-        const import::TriangleMesh ball = source;
+        TriangleMesh source = import::synthesizeMesh(6000, 5);
+        const TriangleMesh ball = source;
         std::mt19937 engine(7);
         std::uniform_real_distribution<double> random(0, 1);
         for (int i = 0; i < 4000; ++i) {
@@ -255,7 +256,7 @@ using Edge = std::pair<std::uint64_t, std::uint64_t>;
 
 /// A square of cells, open around, that bulges a little.
 PackedMesh sheet(std::uint32_t cells) {
-    import::TriangleMesh source;
+    TriangleMesh source;
     for (std::uint32_t y = 0; y <= cells; ++y)
         for (std::uint32_t x = 0; x <= cells; ++x)
             source.positions.emplace_back(x, y, std::sin(0.1 * x) * std::cos(0.13 * y));
@@ -375,25 +376,26 @@ TEST(LodTree, AnyCutThroughAClosedMeshIsClosed) {
 }
 
 /// One half has a texture around it, with a seam; the other is plain.
-import::TriangleMesh texturedBall(){
-    const import::TriangleMesh plain = import::synthesizeMesh(20000, 5);
-import::TriangleMesh ball;
-ball.materials = {{}, {.image = 0}};
-ball.images = {{{1, 1, 0, 0, 0}, std::vector<std::byte>(8)}};
-for (const auto& triangle : plain.triangles) {
-    const bool isTextured = plain.positions[triangle[0]].z > 0;
-    std::array<std::uint32_t, 3> corners;
-    for (std::size_t i = 0; i < 3; ++i) {
-        corners[i] = static_cast<std::uint32_t>(ball.positions.size());
-        const fabric::Vec3& position = ball.positions.emplace_back(plain.positions[triangle[i]]);
-        const bool isPastSeam = position.y > 0;
-        ball.textureCoordinates.emplace_back(position.x + (isPastSeam ? 0.0 : 7.5), position.z);
-        ball.materialOf.push_back(isTextured ? 1 : 0);
+TriangleMesh texturedBall() {
+    const TriangleMesh plain = import::synthesizeMesh(20000, 5);
+    TriangleMesh ball;
+    ball.materials = {{}, {.image = 0}};
+    ball.images = {{{1, 1, 0, 0, 0}, std::vector<std::byte>(8)}};
+    for (const auto& triangle : plain.triangles) {
+        const bool isTextured = plain.positions[triangle[0]].z > 0;
+        std::array<std::uint32_t, 3> corners;
+        for (std::size_t i = 0; i < 3; ++i) {
+            corners[i] = static_cast<std::uint32_t>(ball.positions.size());
+            const fabric::Vec3& position =
+                ball.positions.emplace_back(plain.positions[triangle[i]]);
+            const bool isPastSeam = position.y > 0;
+            ball.textureCoordinates.emplace_back(position.x + (isPastSeam ? 0.0 : 7.5), position.z);
+            ball.materialOf.push_back(isTextured ? 1 : 0);
+        }
+        ball.triangles.push_back(corners);
     }
-    ball.triangles.push_back(corners);
+    return ball;
 }
-return ball;
-}  // namespace
 
 TEST(LodTree, CutsOfATexturedMeshAreClosedAndKeepMaterialsApart) {
     import::PackCounts counts;
@@ -458,5 +460,5 @@ TEST(LodTree, StopsWhenAsked) {
               absl::StatusCode::kCancelled);
 }
 
-}  // namespace eyrie::mesh
+}  // namespace
 }  // namespace eyrie::mesh
