@@ -106,7 +106,7 @@ std::string normalised(const fs::path& path) {
 
 /// What a scene file in `folder` calls `name`, as it is called everywhere.
 absl::Status place(std::string& name, const fs::path& folder) {
-    // Of meshes that are nowhere drawn from URLs that is told, see DataCache.
+    // No mesh of another format is drawn from a URL: DataCache tells what is.
     if (const absl::Status known = page::checkScheme(name); !known.ok())
         return dataFileOf(name) == DataFile::MeshSource ? absl::OkStatus() : known;
     if (!page::isVirtual(name))

@@ -38,9 +38,9 @@ fabric::FrameStatistics ofSizeAskedFor(fabric::FrameStatistics statistics, doubl
     return statistics;
 }
 
-/// Whether something was drawn and some pixel is not the background's, of which anaglyphs show
-/// less. From the middle of the picture on, where that is known at once of most: it is within the
-/// time that the bench takes.
+/// Whether something was drawn, since all of an anaglyph may differ from the background, and some
+/// pixel is not the background's. From the middle of the picture on, where that is known at once of
+/// most: it is within the time that the bench takes.
 bool showsSomething(const coordinator::RenderedFrame& drawn, const fabric::Rgba& background) {
     if (drawn.statistics.nodes + drawn.statistics.nodesHidden == 0)
         return false;

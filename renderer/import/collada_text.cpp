@@ -109,7 +109,7 @@ std::optional<std::string> withoutSkews(std::string_view collada) {
         const std::size_t content = at + tag.size();
         if (end < content)
             end = collada.find(kEnd, content);
-        if (end == collada.npos || at < done)  // one within another: neither format nor Assimp
+        if (end == collada.npos || at < done)  // the format has none within another
             return;
         if (const auto matrix = matrixOfSkew(collada.substr(content, end - content))) {
             done = end + kEnd.size();

@@ -279,6 +279,25 @@ TEST(ActiveConfiguration, DividesNoDataWhoseDepthsNobodySends) {
     EXPECT_EQ(active.state(), before);
 }
 
+/// The helper has nothing to draw while the view shows one eye.
+TEST(ActiveConfiguration, ShowsNoEyesForWhichDataWouldBeDividedWithoutDepths) {
+    ActiveConfiguration active(read(
+        "config { appNode { pipe { window { channel { name \"a\" } channel { name \"b\" } } } } "
+        "layout { name \"l\" view { mode MONO } } canvas { layout 0 segment { channel \"a\" } } "
+        "compound { channel ( segment 0 view 0 ) load_equalizer { } compound { } compound { eye [ "
+        "LEFT RIGHT ] channel \"b\" outputframe { name \"f\" buffer [ COLOR ] } } inputframe { "
+        "name \"f\" } } }"));
+    equalizer::Tuning db;
+    db.mode = config::SplitMode::Db;
+    ASSERT_TRUE(active.tune("0", db).ok());
+    config::ViewState stereo;
+    stereo.isStereo = true;
+    const absl::Status status = active.setView("l", "0", stereo);
+    EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
+    EXPECT_THAT(std::string(status.message()), HasSubstr("cannot divide data"));
+    EXPECT_TRUE(active.plan({}, 1, {}).ok());
+}
+
 TEST(ActiveConfiguration, ShowsWhatAnObserverSeesWithOtherEyesAndAnotherFocus) {
     ActiveConfiguration changed(room(""));
     ActiveConfiguration written(
