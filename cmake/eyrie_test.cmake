@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# eyrie_test(NAME LABEL unit|integration|golden|browser [SOURCES ...] LINK targets...)
-# builds NAME from NAME.cpp (or SOURCES) and registers it with CTest under LABEL.
+# eyrie_test(NAME LABEL unit|integration|golden|browser [MEMORY] [SOURCES ...] LINK targets...)
+# builds NAME from NAME.cpp (or SOURCES) and registers it with CTest under LABEL. MEMORY: some of it
+# measures or limits memory, which holds in builds without sanitizers alone.
 if(EYRIE_BUILD_TESTS)
     find_package(GTest REQUIRED)
     find_path(RAPIDCHECK_INCLUDE_DIR rapidcheck.h REQUIRED)
@@ -22,7 +23,7 @@ if(EYRIE_BUILD_TESTS)
 endif()
 
 function(eyrie_test NAME)
-    cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
+    cmake_parse_arguments(ARG "MEMORY" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
     if(NOT ARG_SOURCES)
         set(ARG_SOURCES ${NAME}.cpp)
     endif()
@@ -35,6 +36,13 @@ function(eyrie_test NAME)
     target_compile_definitions(${NAME} PRIVATE EYRIE_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                                EYRIE_BINARY="${CMAKE_BINARY_DIR}/bin/eyrie")
     set_target_properties(${NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+    if(ARG_MEMORY)
+        list(APPEND ARG_LABEL memory)
+    endif()
+    if(ARG_LABEL STREQUAL "unit" AND NOT EYRIE_BUILD_UNIT_TESTS)
+        set_target_properties(${NAME} PROPERTIES EXCLUDE_FROM_ALL ON)
+        return()
+    endif()
     add_test(NAME ${NAME} COMMAND ${NAME})
-    set_tests_properties(${NAME} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+    set_tests_properties(${NAME} PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
 endfunction()

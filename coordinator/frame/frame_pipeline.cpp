@@ -59,12 +59,13 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderFrame(const FrameRequest& req
     return render(request, pass);
 }
 
-absl::StatusOr<RenderedFrame> FramePipeline::renderLatest(const ChooseFrame& choose) {
+absl::StatusOr<RenderedFrame> FramePipeline::renderLatest(const ChooseFrame& choose,
+                                                          const std::stop_token& stop) {
     const auto asked = FramePlanner::Clock::now();
-    FrameGate::Pass pass(gate_);
+    FrameGate::Pass pass(gate_, stop);
     if (telemetry() != nullptr)
         telemetry()->metrics.took(observe::Stage::Turn, FramePlanner::Clock::now() - asked);
-    const std::optional<FrameRequest> request = choose();
+    const std::optional<FrameRequest> request = pass.hasTurn() ? choose() : std::nullopt;
     if (!request)
         return absl::CancelledError("no frame is wanted any more");
     RETURN_IF_ERROR(check(*request));

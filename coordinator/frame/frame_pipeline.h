@@ -57,7 +57,8 @@ public:
     void openAgain(Registry::Clock::time_point now) { crew_.openAgain(now); }
 
     absl::StatusOr<RenderedFrame> renderFrame(const FrameRequest& request) override;
-    absl::StatusOr<RenderedFrame> renderLatest(const ChooseFrame& choose) override;
+    absl::StatusOr<RenderedFrame> renderLatest(const ChooseFrame& choose,
+                                               const std::stop_token& stop = {}) override;
     int framesAtOnce() const override { return planner_.framesUnderWay(); }
     absl::StatusOr<fabric::SeenAreas> seen(const FrameRequest& request) override;
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request) override;

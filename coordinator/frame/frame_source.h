@@ -213,8 +213,12 @@ public:
     using ChooseFrame = std::function<std::optional<FrameRequest>()>;
     /// The same, but the request is asked for when the frame begins: what it shows is no older than
     /// need be. `choose` is called on the caller's thread, once or, on an error, perhaps not.
-    /// Cancelled where nothing is wanted.
-    virtual absl::StatusOr<RenderedFrame> renderLatest(const ChooseFrame& choose) {
+    /// Cancelled where nothing is wanted, and once `stop` is requested: of what has its turn, by
+    /// the request.
+    virtual absl::StatusOr<RenderedFrame> renderLatest(const ChooseFrame& choose,
+                                                       const std::stop_token& stop = {}) {
+        if (stop.stop_requested())
+            return absl::CancelledError("no frame is wanted any more");
         const std::optional<FrameRequest> request = choose();
         if (!request)
             return absl::CancelledError("no frame is wanted any more");

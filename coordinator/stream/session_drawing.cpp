@@ -146,6 +146,7 @@ Session::Impl::Begun Session::Impl::begin() {
     if (isAtRest || begun.request.look.cutCamera)
         begun.request.budgetMilliseconds.reset();
     begun.request.session = number_;
+    begun.request.stop = over_.get_token();
     begun.request.shown = screens(begun.view.frame.shown.front());
     if (!isAtRest && begun.request.shown.size() == 1 && mayComeEncoded(begun.level))
         begun.request.jpegQuality = QualityControl::level(begun.level).quality;
@@ -161,15 +162,16 @@ void Session::Impl::renderOne(std::unique_lock<std::mutex>& lock) {
     isStarting_ = true;
     std::optional<Begun> begun;
     lock.unlock();
-    absl::StatusOr<coordinator::RenderedFrame> frame =
-        frames_.renderLatest([&]() -> std::optional<coordinator::FrameRequest> {
+    absl::StatusOr<coordinator::RenderedFrame> frame = frames_.renderLatest(
+        [&]() -> std::optional<coordinator::FrameRequest> {
             const std::lock_guard choosing(mutex_);
             if (isStopping_)
                 return std::nullopt;
             begun = begin();
             changed_.notify_all();  // another may get in line
             return begun->request;
-        });
+        },
+        over_.get_token());
     lock.lock();
     if (!begun)
         begun = begin();

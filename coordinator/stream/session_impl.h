@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <map>
 #include <mutex>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
@@ -71,6 +72,7 @@ private:
 
     // ---- With mutex_ held. What takes the lock may give it up meanwhile.
 
+    bool freePlace(const std::shared_ptr<Seat>& seat);
     bool wantNow(const ViewRequest& view);
     void setProblem(std::string& problem, std::string value);
     void waitForChange(std::unique_lock<std::mutex>& lock,
@@ -161,6 +163,7 @@ private:
     const std::uint64_t number_;  ///< of all sessions so far; in FrameRequest::session
     const std::string encoding_;  ///< its thread, in traces
 
+    std::stop_source over_;     // requested once isStopping_: nobody wants a frame any more
     mutable std::mutex mutex_;  // guards everything below, up to the threads, and the seats
     std::condition_variable changed_;
     bool isStopping_ = false;

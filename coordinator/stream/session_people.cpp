@@ -37,6 +37,7 @@ Session::Impl::~Impl() {
         const std::lock_guard lock(mutex_);
         isStopping_ = true;
     }
+    over_.request_stop();
     changed_.notify_all();
     frames_.unsubscribe(subscription_);
     for (std::thread& thread : renderers_) thread.join();
@@ -60,7 +61,17 @@ std::shared_ptr<Seat> Session::Impl::join(Role role, bool mayControl,
 }
 
 bool Session::Impl::leave(const std::shared_ptr<Seat>& seat) {
-    const std::lock_guard lock(mutex_);
+    const bool isLast = [&] {
+        const std::lock_guard lock(mutex_);
+        return freePlace(seat);
+    }();
+    if (isLast)
+        over_.request_stop();  // not with mutex_ held: whoever hears of it may want it
+    return isLast;
+}
+
+/// Whether it was the last viewer's.
+bool Session::Impl::freePlace(const std::shared_ptr<Seat>& seat) {
     if (std::erase(seats_, seat) == 0)
         return false;
     if (leader_ == seat.get()) {

@@ -41,8 +41,8 @@ struct Tile {
     }
 
     TextureId id;
-    TexelRect rect;  ///< border included
-    std::vector<fabric::Rgba> texels;
+    TexelRect rect;                    ///< border included
+    std::vector<fabric::Rgba> texels;  ///< empty: nothing but holes
     TexturePiece made;
     absl::Status status;
 };
@@ -315,7 +315,7 @@ private:
         if (!readStatus_.ok())
             return nullptr;
         auto tile = std::make_shared<Tile>(id, pyramid());
-        if (isInParts(*tile))
+        if (isInParts(*tile) || (id.level == 0 && !source_.mayHave(tile->rect)))
             return tile;
         tile->makeRoom();
         if (id.level == 0)
@@ -415,6 +415,8 @@ absl::Status buildTextures(ImagerySource& source, const std::vector<std::uint32_
         if (begun == order.size() || hasFailed || !readStatus.ok())
             return nullptr;
         auto tile = std::make_shared<Tile>(pyramid.tileOf(textures[order[begun++]]), pyramid);
+        if (!source.mayHave(tile->rect))
+            return tile;
         tile->makeRoom();
         readStatus = source.read(tile->rect, tile->texels);
         return readStatus.ok() ? tile : nullptr;

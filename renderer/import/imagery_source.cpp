@@ -52,11 +52,17 @@ public:
     bool isLastRowFirst() const override { return isLastRowFirst_; }
     std::uint64_t readingBytes() const override { return readingBytes_; }
 
+    bool mayHave(const TexelRect& window) const override {
+        const TexelRect inside = withinLevel(window);
+        return std::ranges::any_of(layers_, [&](const Layer& layer) {
+            const TexelRect part = intersection(inside, layer.box);
+            return part.columns > 0 && part.rows > 0;
+        });
+    }
+
     absl::Status read(const TexelRect& window, std::span<fabric::Rgba> out) override {
         std::fill(out.begin(), out.end(), fabric::Rgba{0, 0, 0, 0});
-        const TexelRect inside =
-            intersection(window, {0, 0, static_cast<std::int32_t>(pyramid_.width(0)),
-                                  static_cast<std::int32_t>(pyramid_.height(0))});
+        const TexelRect inside = withinLevel(window);
         for (const Layer& layer : layers_) {
             const TexelRect part = intersection(inside, layer.box);
             if (part.columns > 0 && part.rows > 0)
@@ -83,6 +89,11 @@ private:
                     std::max<std::int64_t>(0, std::min(a.x + a.columns, b.x + b.columns) - x)),
                 static_cast<std::int32_t>(
                     std::max<std::int64_t>(0, std::min(a.y + a.rows, b.y + b.rows) - y))};
+    }
+
+    TexelRect withinLevel(const TexelRect& window) const {
+        return intersection(window, {0, 0, static_cast<std::int32_t>(pyramid_.width(0)),
+                                     static_cast<std::int32_t>(pyramid_.height(0))});
     }
 
     /// Fills in what has no better picture so far.

@@ -24,6 +24,8 @@ public:
     virtual const terrain::TexturePyramid& pyramid() const = 0;
     /// Rows are stored from the last to the first: quicker read in that order.
     virtual bool isLastRowFirst() const = 0;
+    /// False where no picture lies in a window of the finest level: all of it is a hole.
+    virtual bool mayHave(const terrain::TexelRect& window) const = 0;
     /// The texels of a window of the finest level, row by row, those outside of the level as its
     /// nearest; alpha 0 where there is no picture. Errors: DataLoss.
     virtual absl::Status read(const terrain::TexelRect& window, std::span<fabric::Rgba> out) = 0;

@@ -64,7 +64,8 @@ public:
         std::unique_lock lock(mutex_);
         requests_.push_back(request);
         changed_.notify_all();
-        changed_.wait(lock, [this] { return !isHeld_; });
+        if (!changed_.wait(lock, request.stop, [this] { return !isHeld_; }))
+            return absl::CancelledError("nobody wants it any more");
         const Draw draw = draw_;
         lock.unlock();
         return draw(request);
@@ -132,7 +133,7 @@ public:
         for (const auto& [handle, listener] : listeners_) listener();
     }
 
-    /// While held, renderFrame waits.
+    /// While held, renderFrame waits, or until its request is stopped.
     void hold(bool isHeld) {
         {
             const std::lock_guard lock(mutex_);
@@ -200,7 +201,7 @@ public:
 
 private:
     mutable std::mutex mutex_;
-    mutable std::condition_variable changed_;
+    mutable std::condition_variable_any changed_;
     Status status_;
     Draw draw_;
     bool isHeld_ = false;

@@ -147,6 +147,33 @@ TEST_P(FramesInFlight, OneThatIsNotWantedAnyMoreIsNotDrawn) {
     expectWholePicture();
 }
 
+TEST_P(FramesInFlight, OneThatIsGivenUpBeforeItsTurnDoesNotWaitForOthers) {
+    const Renderers renderers = openFresh(2);
+    for (const auto& renderer : renderers) renderer->hang(true);
+    Asked first = ask();
+    ASSERT_TRUE(begins(*renderers[0], 1) && begins(*renderers[1], 1));
+    std::stop_source stop;
+    std::atomic<bool> isChosen{false};
+    auto given = std::async(std::launch::async, [&] {
+        return pipeline_
+            .renderLatest(
+                [&]() -> std::optional<FrameRequest> {
+                    isChosen = true;
+                    return request();
+                },
+                stop.get_token())
+            .status();
+    });
+    std::this_thread::sleep_for(milliseconds(50));  // it is in line
+    stop.request_stop();
+    const absl::Status status = given.get();
+    EXPECT_TRUE(absl::IsCancelled(status)) << status;
+    EXPECT_FALSE(isChosen);
+    EXPECT_TRUE(first.isKeptBack());
+    for (const auto& renderer : renderers) renderer->hang(false);
+    expectWhole(first);
+}
+
 TEST_P(FramesInFlight, ARendererThatDiesWithTwoOfThemIsReplacedInBoth) {
     const Renderers renderers = openFresh(3);
     renderers[1]->holdPictures(true);

@@ -55,6 +55,34 @@ TEST(Session, IsOfOneViewerWhereNoneIsNamed) {
     EXPECT_FALSE(other.nextFrame(milliseconds(50)).has_value());
 }
 
+TEST(Session, ThatNobodySeesAnyMoreGivesItsFramesUp) {
+    FakeFrameSource frames;
+    Sessions sessions(frames, moving(2));
+    frames.hold(true);
+    {
+        Browser only(sessions, {});
+        only.look(1);
+        ASSERT_TRUE(frames.waitForRequests(1));
+        EXPECT_FALSE(frames.requests()[0].stop.stop_requested());
+    }
+    EXPECT_TRUE(frames.requests()[0].stop.stop_requested());
+}
+
+TEST(Session, ThatSomebodyStillSeesGoesOnWithItsFrames) {
+    FakeFrameSource frames;
+    Sessions sessions(frames, moving(2));
+    frames.hold(true);
+    Browser stays(sessions, kLead);
+    {
+        Browser goes(sessions, kLead);
+        stays.look(1);
+        ASSERT_TRUE(frames.waitForRequests(1));
+    }
+    EXPECT_FALSE(frames.requests()[0].stop.stop_requested());
+    frames.hold(false);
+    EXPECT_TRUE(stays.nextFrame().has_value());
+}
+
 TEST(Session, ShowsAllWhatItsLeaderMoves) {
     FakeFrameSource frames;
     Sessions sessions(frames, moving(2));

@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Whether there are tests stays in CMake's cache, of the demo as well.
+/// Whether there are tests, and which, stays in CMake's cache, of the demo as well.
 TEST(Dev, SaysEachTimeWhetherTestsAreBuilt) {
     const test::TemporaryFolder programs;
     const auto stub = [&](const char* name, const char* text) {
@@ -34,9 +34,12 @@ TEST(Dev, SaysEachTimeWhetherTestsAreBuilt) {
                          {"PATH=" + programs.path().string() + ":" + path})
             .output;
     };
-    EXPECT_THAT(saidBy({"build"}), HasSubstr("cmake --preset release -DEYRIE_BUILD_TESTS=ON"));
-    EXPECT_THAT(saidBy({"build", "debug"}),
-                HasSubstr("cmake --preset debug -DEYRIE_BUILD_TESTS=ON"));
+    EXPECT_THAT(
+        saidBy({"build"}),
+        HasSubstr("cmake --preset release -DEYRIE_BUILD_TESTS=ON -DEYRIE_BUILD_UNIT_TESTS=ON"));
+    EXPECT_THAT(
+        saidBy({"build", "debug"}),
+        HasSubstr("cmake --preset debug -DEYRIE_BUILD_TESTS=ON -DEYRIE_BUILD_UNIT_TESTS=ON"));
     EXPECT_THAT(saidBy({"program"}), HasSubstr("cmake --preset release -DEYRIE_BUILD_TESTS=OFF"));
 }
 
