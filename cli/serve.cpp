@@ -189,7 +189,7 @@ void addServe(CLI::App& app, Run& run) {
     command
         ->add_option("--renderers", options->renderers,
                      "Renderer processes; auto: as many as the layouts that --config shows use, at "
-                     "any time; one a GPU; without, two")
+                     "any time; one a GPU; without, two (on a single core, one)")
         ->transform(CLI::Validator(countOrAuto, ""))
         ->type_name(fmt::format("auto|1 to {}", RendererProcesses::kMaxCount))
         ->default_str("auto");

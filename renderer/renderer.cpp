@@ -56,6 +56,8 @@ public:
     RendererMemory memory() const;
 
 private:
+    absl::Status unlessIncomplete();
+
     Impl(std::unique_ptr<gl::EglContext> context, const RendererOptions& options)
         : context_(std::move(context)), opener_(options, context_->device()) {}
 
@@ -82,6 +84,14 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
     sceneDraw_.forget();
     turns_.forget();
     return open_->info;
+}
+
+/// What GL had no memory for may be uploads, which stay missing: no picture is whole any more.
+absl::Status Renderer::Impl::unlessIncomplete() {
+    absl::Status met = gl::takeGlError();
+    if (absl::IsResourceExhausted(met))
+        incomplete_ = met;
+    return met;
 }
 
 absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::FrameData& asked,
@@ -114,6 +124,8 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     const auto drawStart = Clock::now();
     const draw::SceneFrame frame{open_->scene, open_->objects, selection, views.drawn,
                                  frameData,    task,           delivery};
+    RETURN_IF_ERROR(unlessIncomplete());
+    RETURN_IF_ERROR(sceneDraw_.framebuffer().resize(views.drawn.width, views.drawn.height));
     RETURN_IF_ERROR(sceneDraw_.draw(frame, statistics));
     RETURN_IF_ERROR(draw::unlessStopped(stop));
     statistics.milliseconds.draw = millisecondsSince(drawStart);
@@ -128,8 +140,7 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
         {frameData, task, selection.covered, framebuffer,
          device().software ? occlusion::Reading::ByParts : occlusion::Reading::AllAtOnce});
     statistics.milliseconds.cull += millisecondsSince(errorStart);
-    if (absl::Status met = gl::takeGlError(); !met.ok())
-        return absl::IsResourceExhausted(met) ? incomplete_ = std::move(met) : met;
+    RETURN_IF_ERROR(unlessIncomplete());
     statistics.milliseconds.total = millisecondsSince(start);
     if (task.measuresStages)
         RETURN_IF_ERROR(sceneDraw_.measureStages(frame, statistics.milliseconds));

@@ -22,13 +22,12 @@ std::string describe(const FrameKey& key) {
 
 Mailbox::Arrival::~Arrival() {
     if (mailbox_ != nullptr)
-        mailbox_->arrive(key_, bytes_,
-                         absl::UnavailableError(
-                             fmt::format("{} broke off: its sender went away", describe(key_))));
+        mailbox_->arrive(*this, absl::UnavailableError(fmt::format(
+                                    "{} broke off: its sender went away", describe(key_))));
 }
 
 void Mailbox::Arrival::complete(fabric::Image image) {
-    std::exchange(mailbox_, nullptr)->arrive(key_, bytes_, std::move(image));
+    std::exchange(mailbox_, nullptr)->arrive(*this, std::move(image));
 }
 
 Mailbox::Mailbox(const Limits& limits)
@@ -107,12 +106,13 @@ absl::StatusOr<Mailbox::Arrival> Mailbox::admit(const FrameKey& key,
     RETURN_IF_ERROR(checkFits(key, slot));
     RETURN_IF_ERROR(checkRoom(slot, bytes));
     bytesHeld_ += bytes;
+    slot.arrival = ++arrivals_;
     slot.since = Clock::now();
     if (!slot.announced)
         ++unannounced_;
     slots_.insert_or_assign(key, std::move(slot));
     changed_.notify_all();
-    return Arrival(*this, key, bytes);
+    return Arrival(*this, key, bytes, arrivals_);
 }
 
 std::uint64_t Mailbox::bytesHeld() const {
@@ -146,17 +146,16 @@ absl::Status Mailbox::checkRoom(const Slot& slot, std::uint64_t bytes) const {
     return absl::OkStatus();
 }
 
-void Mailbox::arrive(const FrameKey& key, std::uint64_t bytes,
-                     absl::StatusOr<fabric::Image> image) {
+void Mailbox::arrive(const Arrival& arrival, absl::StatusOr<fabric::Image> image) {
     {
         const std::lock_guard lock(mutex_);
-        const auto found = slots_.find(key);
-        const bool isAwaited = found != slots_.end() && !found->second.arrived;
+        const auto found = slots_.find(arrival.key_);
+        const bool isAwaited = found != slots_.end() && found->second.arrival == arrival.number_;
         if (!isAwaited || !image.ok())
-            bytesHeld_ -= bytes;
+            bytesHeld_ -= arrival.bytes_;
         if (!isAwaited)
             return;  // Forgotten meanwhile.
-        found->second.bytes = image.ok() ? bytes : 0;
+        found->second.bytes = image.ok() ? arrival.bytes_ : 0;
         found->second.arrived = std::move(image);
     }
     changed_.notify_all();

@@ -48,21 +48,25 @@ public:
     /// complete was called.
     class Arrival {
     public:
-        Arrival(Mailbox& mailbox, const FrameKey& key, std::uint64_t bytes)
-            : mailbox_(&mailbox), key_(key), bytes_(bytes) {}
+        Arrival(Mailbox& mailbox, const FrameKey& key, std::uint64_t bytes, std::uint64_t number)
+            : mailbox_(&mailbox), key_(key), bytes_(bytes), number_(number) {}
         ~Arrival();
         Arrival(Arrival&& other) noexcept
             : mailbox_(std::exchange(other.mailbox_, nullptr)),
               key_(other.key_),
-              bytes_(other.bytes_) {}
+              bytes_(other.bytes_),
+              number_(other.number_) {}
         Arrival& operator=(Arrival&&) = delete;
 
         void complete(fabric::Image image);
 
     private:
+        friend class Mailbox;
+
         Mailbox* mailbox_;  ///< null: completed, or moved from
         FrameKey key_;
         std::uint64_t bytes_;
+        std::uint64_t number_;  ///< of all arrivals
     };
 
     explicit Mailbox(const Limits& limits);
@@ -104,7 +108,8 @@ private:
         // Of what has begun to arrive; none: nothing has.
         std::optional<fabric::PixelViewport> area;
         bool hasDepth = false;
-        std::uint64_t bytes = 0;  ///< of the image, once it is here
+        std::uint64_t arrival = 0;  ///< its number; another's, of a slot of before, is not for this
+        std::uint64_t bytes = 0;    ///< of the image, once it is here
         std::optional<absl::StatusOr<fabric::Image>> arrived;
         Clock::time_point since{};
     };
@@ -112,7 +117,7 @@ private:
 
     static absl::Status checkFits(const FrameKey& key, const Slot& slot);
     absl::Status checkRoom(const Slot& slot, std::uint64_t bytes) const;
-    void arrive(const FrameKey& key, std::uint64_t bytes, absl::StatusOr<fabric::Image> image);
+    void arrive(const Arrival& arrival, absl::StatusOr<fabric::Image> image);
     void erase(Slots::iterator slot);
     void sweep(const std::stop_token& stop);
 
@@ -122,6 +127,7 @@ private:
     std::string address_;
     Slots slots_;
     std::uint64_t bytesHeld_ = 0;
+    std::uint64_t arrivals_ = 0;
     std::size_t unannounced_ = 0;  ///< slots
     std::jthread sweeper_;         ///< drops what nobody announces
 };

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -134,7 +135,13 @@ absl::StatusOr<ProgramAnswer> runProgram(const fabric::ChannelProgram& program,
                                          const ProgramTools& tools,
                                          std::chrono::steady_clock::time_point deadline,
                                          const std::stop_token& stop) {
-    return Run(program, tools, deadline, stop).all();
+    try {
+        return Run(program, tools, deadline, stop).all();
+    } catch (const std::bad_alloc&) {
+        return absl::ResourceExhaustedError(
+            "the renderer has no memory for this program's pictures; ask for fewer, or smaller "
+            "ones");
+    }
 }
 
 }  // namespace eyrie::service

@@ -50,11 +50,16 @@ absl::Status checkCount(std::string_view what, int count, std::size_t least, std
         fmt::format("there are {} {}; it must be {} to {}", count, what, least, most));
 }
 
+/// Of all that a program answers with: the renderer holds it until it is sent.
+constexpr std::int64_t kMostAnswerPixels =
+    std::int64_t{fabric::kMaxViewPixels} * fabric::kMaxViewPixels;
+
 /// What a program's parts are checked against.
 struct Bounds {
     fabric::PixelViewport area;
     bool hasDepth = false;
     std::set<std::uint32_t> announced;
+    std::int64_t answerPixels = 0;  ///< so far
 };
 
 absl::StatusOr<fabric::PixelViewport> areaWithin(const v1::PixelViewport& message,
@@ -96,8 +101,7 @@ absl::StatusOr<fabric::ProgramInput> readInput(const v1::ProgramInput& message, 
     return input;
 }
 
-absl::StatusOr<fabric::ProgramOutput> readOutput(const v1::ProgramOutput& message,
-                                                 const Bounds& bounds) {
+absl::StatusOr<fabric::ProgramOutput> readOutput(const v1::ProgramOutput& message, Bounds& bounds) {
     fabric::ProgramOutput output;
     output.frame = message.frame();
     ASSIGN_OR_RETURN(output.area, areaWithin(message.area(), bounds));
@@ -105,8 +109,16 @@ absl::StatusOr<fabric::ProgramOutput> readOutput(const v1::ProgramOutput& messag
     if (output.withDepth)
         RETURN_IF_ERROR(needsDepth("with_depth", bounds));
     output.to = message.to();
-    if (!output.to.empty())
+    if (!output.to.empty()) {
         RETURN_IF_ERROR(checkAddress(output.to));
+        return output;
+    }
+    bounds.answerPixels += output.area.area();
+    if (bounds.answerPixels > kMostAnswerPixels)
+        return absl::InvalidArgumentError(
+            fmt::format("outputs without an address, which are the answer, have more than {} "
+                        "pixels",
+                        kMostAnswerPixels));
     return output;
 }
 
@@ -167,7 +179,7 @@ absl::StatusOr<fabric::ChannelProgram> fromMessage(const v1::ChannelProgram& mes
     program.background = std::bit_cast<fabric::Rgba>(message.background());
     RETURN_IF_ERROR(
         checkCount("stages in program", message.stages_size(), 1, fabric::kMaxProgramStages));
-    Bounds bounds{program.area, program.hasDepth, {}};
+    Bounds bounds{program.area, program.hasDepth, {}, 0};
     for (int i = 0; i < message.stages_size(); ++i) {
         absl::StatusOr<fabric::ProgramStage> stage = readStage(message.stages(i), bounds);
         if (!stage.ok())

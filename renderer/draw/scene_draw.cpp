@@ -87,7 +87,6 @@ absl::Status SceneDraw::drawPieces(std::span<const OpenObject> objects,
 
 absl::Status SceneDraw::draw(const SceneFrame& frame, fabric::FrameStatistics& statistics) {
     const auto& [scene, objects, selection, view, frameData, task, delivery] = frame;
-    RETURN_IF_ERROR(framebuffer_.resize(view.width, view.height));
     const fabric::Lights lights = lightsOf(scene, objects, frameData.look);
     const FrameState state = stateOf(frame, lights, task.pixelViewport);
     drawn_.clear();

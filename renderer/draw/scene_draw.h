@@ -37,7 +37,8 @@ struct SceneFrame {
 /// blended ones. GL thread.
 class SceneDraw {
 public:
-    /// Returns when the device has finished. Lines hide nothing, and are drawn with the piece they
+    /// Into framebuffer(), which has to be as large as the view. Returns when the device has
+    /// finished. Lines hide nothing, and are drawn with the piece they
     /// belong to, hidden or not. Errors: those of the drawables; Cancelled where nobody wants the
     /// picture any more.
     absl::Status draw(const SceneFrame& frame, fabric::FrameStatistics& statistics);

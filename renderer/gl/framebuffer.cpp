@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "fabric/status.h"
+#include "renderer/gl/debug_output.h"
+
 namespace eyrie::gl {
 
 absl::Status Framebuffer::resize(int width, int height) {
@@ -19,21 +22,22 @@ absl::Status Framebuffer::resize(int width, int height) {
         return absl::ResourceExhaustedError(
             fmt::format("a view of {} x {} pixels exceeds this device's limit of {} x {}", width,
                         height, limit, limit));
-    width_ = newWidth;
-    height_ = newHeight;
-    glNamedRenderbufferStorage(colour_.id(), GL_RGBA8, width_, height_);
-    glNamedRenderbufferStorage(depth_.id(), GL_DEPTH_COMPONENT32F, width_, height_);
+    width_ = height_ = 0;
+    glNamedRenderbufferStorage(colour_.id(), GL_RGBA8, newWidth, newHeight);
+    glNamedRenderbufferStorage(depth_.id(), GL_DEPTH_COMPONENT32F, newWidth, newHeight);
+    RETURN_IF_ERROR(takeGlError());
     glNamedFramebufferRenderbuffer(framebuffer_.id(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
                                    colour_.id());
     glNamedFramebufferRenderbuffer(framebuffer_.id(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
                                    depth_.id());
     const GLenum status = glCheckNamedFramebufferStatus(framebuffer_.id(), GL_DRAW_FRAMEBUFFER);
-    if (status == GL_FRAMEBUFFER_COMPLETE)
-        return absl::OkStatus();
-    width_ = height_ = 0;
-    return absl::ResourceExhaustedError(
-        fmt::format("the device refuses a framebuffer of {} x {} pixels (status 0x{:x})", newWidth,
-                    newHeight, status));
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        return absl::ResourceExhaustedError(
+            fmt::format("the device refuses a framebuffer of {} x {} pixels (status 0x{:x})",
+                        newWidth, newHeight, status));
+    width_ = newWidth;
+    height_ = newHeight;
+    return absl::OkStatus();
 }
 
 void Framebuffer::begin(int viewWidth, int viewHeight, const fabric::PixelViewport& part,
@@ -71,8 +75,10 @@ std::span<const float> Framebuffer::depth(const fabric::PixelViewport& part) {
     if (part.isEmpty())
         return {};
     const auto pixels = static_cast<std::size_t>(part.area());
-    if (!depths_ || depths_->size() < pixels)
+    if (!depths_ || depths_->size() < pixels || !depths_->isMapped())
         depths_.emplace(pixels);
+    if (!depths_->isMapped())
+        return depths_->first(pixels);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
     glBindBuffer(GL_PIXEL_PACK_BUFFER, depths_->id());
     glReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);

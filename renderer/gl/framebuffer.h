@@ -21,7 +21,8 @@ namespace eyrie::gl {
 class Framebuffer {
 public:
     /// Makes the framebuffer at least as large as the view. ResourceExhausted when the device
-    /// refuses.
+    /// refuses, which holds for this view only. Takes the errors of GL: who wants to know of
+    /// earlier ones asks before.
     absl::Status resize(int width, int height);
 
     /// Binds it, restricts drawing to `part` and clears that part.

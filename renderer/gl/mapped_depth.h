@@ -17,6 +17,7 @@ public:
 
     GLuint id() const { return buffer_.id(); }
     std::size_t size() const { return pixels_; }  ///< in pixels
+    bool isMapped() const { return mapped_ != nullptr; }
 
     /// What the device has written, once it has finished: valid as long as this. Where there was no
     /// memory for it, which takeGlError() tells, nothing was drawn: 0, infinitely far.

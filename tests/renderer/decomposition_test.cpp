@@ -9,6 +9,7 @@
 #include "fabric/depth_merge.h"
 #include "renderer/renderer.h"
 #include "tests/renderer/sample_scene.h"
+#include "tests/support/memory_limit.h"
 #include "tests/support/renderer.h"
 
 namespace eyrie {
@@ -131,6 +132,21 @@ TEST_P(DecompositionTest, EveryDecompositionEqualsTheSingleChannelAtTwentyCamera
         expectEqual(expected, single(frame), name + "drawn again");
     }
     EXPECT_GT(covered, 20U * kWidth * kHeight / 10) << "the cameras should see something";
+}
+
+TEST_P(DecompositionTest, AViewThatTheDeviceHasNoMemoryForFailsAlone) {
+    std::mt19937 random(kSeed);
+    const FrameData frame = randomFrame(random, info_.bounds);
+    const Image expected = single(frame);
+    {
+        const test::MemoryLimit limit(rlim_t{512} << 20);
+        ChannelTask large = wholeView();
+        large.viewWidth = large.viewHeight = fabric::kMaxViewPixels;
+        large.pixelViewport = {0, 0, 16, 16};
+        const auto refused = renderer_->render(frame, large);
+        EXPECT_TRUE(absl::IsResourceExhausted(refused.status())) << refused.status();
+    }
+    for (int again = 0; again < 3; ++again) expectEqual(expected, single(frame), "afterwards");
 }
 
 /// Half of what the view takes as asked for: every channel comes to the same tau.

@@ -489,6 +489,21 @@ TEST(Mailbox, WhatComesAfterItsProgramEndedIsDropped) {
     EXPECT_EQ(mailbox.bytesHeld(), 0U);
 }
 
+TEST(Mailbox, WhatWasAdmittedForAProgramIsNotTakenForTheNextOfTheSameKey) {
+    Mailbox mailbox({});
+    ASSERT_TRUE(mailbox.announce(kKey, {0, 0, 10, 1}, false).ok());
+    auto late = mailbox.admit(kKey, {0, 0, 10, 1}, false);
+    ASSERT_TRUE(late.ok());
+    mailbox.forget(kKey);
+    ASSERT_TRUE(mailbox.announce(kKey, {0, 0, 4, 1}, true).ok());
+    late->complete(fabric::makeImage({0, 0, 10, 1}, {}, false));
+    EXPECT_EQ(mailbox.bytesHeld(), 0U);
+    mailbox.admit(kKey, {0, 0, 4, 1}, true)->complete(fabric::makeImage({0, 0, 4, 1}, {}, true));
+    const auto image = mailbox.await(kKey, Mailbox::Clock::now() + std::chrono::seconds(10), {});
+    ASSERT_TRUE(image.ok()) << image.status();
+    EXPECT_EQ(image->area, (fabric::PixelViewport{0, 0, 4, 1}));
+}
+
 TEST(Mailbox, AMergeByDepthNeedsDepth) {
     Mailbox mailbox({});
     ASSERT_TRUE(mailbox.announce(kKey, {0, 0, 10, 1}, true).ok());

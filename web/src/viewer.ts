@@ -39,6 +39,7 @@ export interface ExactPicture {
 
 /** A view without its picture for so long is stale. */
 const staleAfter = 2000;
+const noticeShownFor = 4000;
 
 /**
  * A scene on a canvas: sends views, draws frames, moves the camera. Works without any panel:
@@ -61,6 +62,7 @@ export class Viewer {
   private readonly ticker: number;
   /** How to hear no more of the state, which may outlast this viewer. */
   private readonly unwatch: readonly (() => void)[];
+  private noticeTimer: ReturnType<typeof setTimeout> | undefined;
   private isClosed = false;
 
   /** The picture on the canvas, while it is exact. */
@@ -135,6 +137,10 @@ export class Viewer {
       canvasSize: () => this.canvas.size(),
     });
     this.unwatch = [
+      state.notice.watch((text) => {
+        clearTimeout(this.noticeTimer);
+        if (text !== "") this.noticeTimer = setTimeout(() => state.notice.set(""), noticeShownFor);
+      }),
       state.shown.watch((shown) => this.canvas.setFilled(shown?.isPacked === true)),
       watchSettings(
         state,
@@ -154,6 +160,7 @@ export class Viewer {
     this.isClosed = true;
     window.clearInterval(this.ticker);
     for (const end of this.unwatch) end();
+    clearTimeout(this.noticeTimer);
     this.questions.close();
     this.steering.close();
     this.socket.close();

@@ -79,6 +79,12 @@ TEST(WireChannelProgram, WhatItMustNotHoldIsRefusedByField) {
     program.stages[0].outputs.assign(fabric::kMaxStageFrames + 1, {2, {10, 5, 3, 3}, false, ""});
     EXPECT_THAT(refusal(program), HasSubstr("257 outputs"));
     program = sample();
+    program.area = {0, 0, fabric::kMaxViewPixels, fabric::kMaxViewPixels};
+    program.stages[0].outputs = {{2, program.area, false, ""}, {3, program.area, false, "node7:1"}};
+    EXPECT_TRUE(fromMessage(toMessage(program)).ok());
+    program.stages[0].outputs.push_back({4, {10, 5, 1, 1}, false, ""});
+    EXPECT_THAT(refusal(program), HasSubstr("more than 268435456 pixels"));
+    program = sample();
     program.stages[0].draw = fabric::ChannelTask{7, 8, 100, 60, {0, 0, 20, 10}, {}, true};
     EXPECT_THAT(refusal(program), HasSubstr("draw.pixel_viewport"));
 }

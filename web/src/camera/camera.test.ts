@@ -93,6 +93,15 @@ describe("zoom", () => {
     expect(distance(zoom(far, 0.9, 100, 50, height, limits))).toBeCloseTo(2.7 * limits.max, 6);
   });
 
+  it("in from nearer than the smallest distance goes ahead, never back, and out goes on from there", () => {
+    const near: Camera = { ...camera, eye: [0, -limits.min / 5, 0] };
+    const { forward } = axesOf(near);
+    const ahead = zoom(near, 0.8, 100, 50, height, limits);
+    expect(dot(subtract(ahead.eye, near.eye), forward)).toBeCloseTo(distance(near) * 0.2, 9);
+    expect(distance(ahead)).toBeCloseTo(distance(near), 9);
+    expect(distance(zoom(near, 1.2, 100, 50, height, limits))).toBeCloseTo(distance(near) * 1.2, 9);
+  });
+
   it("goes on ahead at the smallest distance, and stops at the largest", () => {
     let near = camera;
     for (let i = 0; i < 200; ++i) near = zoom(near, 0.8, 0, 0, height, limits);

@@ -3,7 +3,7 @@
 import type { Aim } from "../aim";
 import type { Camera } from "./camera";
 import { isCommand, letterOf } from "./commands";
-import { isScrolled, isSheetOpen, isText, isTyping } from "./typing";
+import { isScrolled, isSheetOpen, isText, isTyping, targetOf } from "./typing";
 import type { Keys } from "./fly";
 import { fly, isFlyKey, look } from "./fly";
 import type { DistanceLimits } from "./orbit";
@@ -236,7 +236,7 @@ export class Controls {
 
   private keyDown(event: KeyboardEvent): void {
     this.isFast = event.shiftKey;
-    if (event.ctrlKey || event.metaKey || event.altKey || isText(event.target)) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || isText(targetOf(event))) return;
     if (isFlyKey(event.code) && !isCommand(letterOf(event))) this.flyKeyDown(event);
     else if (this.otherKeyDown(event)) event.preventDefault();
   }
@@ -271,7 +271,7 @@ export class Controls {
         this.zoomBy(1 / zoomPerKey, 0, 0, time);
         return true;
       default:
-        if (isTyping(event.target) || isScrolled(event.target)) return false;
+        if (isTyping(targetOf(event)) || isScrolled(event.target)) return false;
         return this.placeKeyDown(event);
     }
   }

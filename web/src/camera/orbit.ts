@@ -64,9 +64,9 @@ export function zoom(
   limits: DistanceLimits,
 ): Camera {
   const before = distance(camera);
-  // Links and programs may have led beyond the limit: from there it goes no farther.
+  // Links, walks and programs may have led beyond a limit: from there it goes no farther, or nearer.
   const wanted = Math.min(before * factor, Math.max(limits.max, before));
-  const after = Math.max(wanted, limits.min);
+  const after = Math.max(wanted, Math.min(limits.min, before));
   const { right, up, forward } = axesOf(camera);
   const metres = metresPerPixel(camera, heightPixels);
   const cursor = add(scale(right, x * metres), scale(up, -y * metres));

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
+/** What an event is really at: what is inside a web component is seen from outside as the component. */
+export const targetOf = (event: Event): EventTarget | null =>
+  event.composedPath()[0] ?? event.target;
+
 const isIn = (target: EventTarget | null, selector: string): boolean =>
   target instanceof Element && target.closest(selector) !== null;
 

@@ -246,9 +246,11 @@ export function showEqualizers(state: State): void {
     problem.textContent = why instanceof Error ? why.message : String(why);
   };
   let isOutdated = false;
+  let isUnread = false; // what is shown may not be what the server has
   const show = async (): Promise<void> => {
     try {
       const compounds = compoundsOf(await readConfiguration());
+      isUnread = false;
       isOutdated = isTyping(tree);
       if (isOutdated) return;
       // What has the focus keeps it.
@@ -259,6 +261,7 @@ export function showEqualizers(state: State): void {
       const again = tree.querySelectorAll<HTMLElement>("input, select")[focused];
       again?.focus();
     } catch (error) {
+      isUnread = true;
       complain(error);
     }
   };
@@ -268,6 +271,10 @@ export function showEqualizers(state: State): void {
   };
   const showReports = async (): Promise<void> => {
     const all = equalizersOf(compoundsOf(await readConfiguration(true)));
+    if (isUnread) {
+      problem.textContent = "";
+      await show();
+    }
     const lines = tree.querySelectorAll<HTMLElement>(".equalizer-report");
     if (lines.length === all.length)
       lines.forEach((line, position) => setText(line, reportText(all[position]!)));

@@ -28,9 +28,11 @@ function showEmpty(isEmpty: boolean): void {
   byId("status", HTMLElement).hidden = isEmpty;
 }
 
+const entry = new Value<Entry>("needed");
+const show = async (token?: string): Promise<void> => entry.set(await logIn(loginUrl, token));
+
 /** Asks for a token until the server takes one, given here or by `entry` becoming another. */
-function askForToken(entry: Value<Entry>, show: (token: string) => void): Promise<void> {
-  const message = byId("message", HTMLElement);
+function askForToken(): Promise<void> {
   const reason = make("p", "");
   const input = make("input", "token");
   input.type = "password";
@@ -38,14 +40,14 @@ function askForToken(entry: Value<Entry>, show: (token: string) => void): Promis
   input.required = true;
   input.setAttribute("aria-label", "Token");
   const form = make("form", "message-box sign-in", reason, input, make("button", "small", "Enter"));
-  showEmpty(true);
-  message.replaceChildren(form);
-  message.hidden = false;
+  const sheet = make("section", "message", form);
+  sheet.setAttribute("role", "status");
+  byId("message", HTMLElement).after(sheet);
   input.focus();
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     const token = input.value.trim();
-    if (token !== "") show(token);
+    if (token !== "") void show(token);
   });
   return new Promise((resolve) => {
     const end = entry.watch((now) => {
@@ -54,9 +56,7 @@ function askForToken(entry: Value<Entry>, show: (token: string) => void): Promis
         return;
       }
       end();
-      showEmpty(false);
-      message.hidden = true;
-      message.replaceChildren();
+      sheet.remove();
       resolve();
     });
   });
@@ -67,17 +67,26 @@ function askForToken(entry: Value<Entry>, show: (token: string) => void): Promis
  * of links that are opened in this tab are taken ever after.
  */
 export async function signIn(): Promise<void> {
-  const entry = new Value<Entry>("needed");
-  const show = async (token?: string): Promise<void> => entry.set(await logIn(loginUrl, token));
   window.addEventListener("hashchange", () => {
     const token = takeToken();
     if (token !== undefined) void show(token);
   });
   await show(takeToken());
-  if (entry.value !== "ok") await askForToken(entry, (token) => void show(token));
+  if (entry.value === "ok") return;
+  showEmpty(true);
+  await askForToken();
+  showEmpty(false);
 }
 
-/** Once the server, lost before, wants a token again, as after a cookie's life, the page starts anew. */
+/**
+ * Asks for a token where the server, lost before, wants one again, as after a cookie's life. The
+ * page stays as it is beneath, with what is not kept of it, and connects again by itself.
+ */
 export async function signInAgain(): Promise<void> {
-  if ((await logIn(loginUrl)) === "needed") window.location.reload();
+  if (entry.value !== "ok") return; // it is asking already
+  await show();
+  if (entry.value !== "ok") await askForToken();
 }
+
+/** The server has let this browser in, perhaps for what another tab showed it. */
+export const isIn = (): void => entry.set("ok");

@@ -100,6 +100,47 @@ describe("a socket", () => {
     expect(after(1006)).toEqual({ connections: 2, told: ["opened", "lost"] });
   });
 
+  it("that is closed when it tells of its loss stays closed", () => {
+    FakeSocket.made = [];
+    vi.stubGlobal("WebSocket", FakeSocket);
+    for (const closesAt of ["lost", "refused"]) {
+      FakeSocket.made = [];
+      const events = new Proxy({} as SocketEvents, {
+        get: (_, name) => () => {
+          if (name === closesAt) socket.close();
+        },
+      });
+      const socket = new Socket("ws://host/ws", events);
+      FakeSocket.made[0]?.onopen?.();
+      FakeSocket.made[0]?.onclose?.({ code: 1006 });
+      vi.advanceTimersByTime(60_000);
+      expect(FakeSocket.made.length).toBe(1);
+    }
+  });
+
+  it("is not lost by what those throw whom it tells, only by what it cannot read", () => {
+    FakeSocket.made = [];
+    vi.stubGlobal("WebSocket", FakeSocket);
+    const told: string[] = [];
+    const events = new Proxy({} as SocketEvents, {
+      get: (_, name) => () => {
+        told.push(String(name));
+        if (name === "state") throw new Error("the page's own");
+      },
+    });
+    const socket = new Socket("ws://host/ws", events);
+    FakeSocket.made[0]?.onopen?.();
+    const state = create(ViewerResponseSchema, { response: { case: "state", value: {} } });
+    const { buffer } = Uint8Array.from(toBinary(ViewerResponseSchema, state));
+    expect(() => FakeSocket.made[0]?.onmessage?.({ data: buffer })).toThrow("the page's own");
+    expect(told).toEqual(["opened", "state"]);
+    const error = vi.spyOn(console, "error").mockImplementation(() => {});
+    FakeSocket.made[0]?.onmessage?.({ data: new Uint8Array([255]).buffer });
+    expect(told).toEqual(["opened", "state", "lost", "refused"]);
+    error.mockRestore();
+    socket.close();
+  });
+
   const sayNothing = { data: new ArrayBuffer(0) };
 
   it("is lost when nothing at all has come for ten seconds, though nobody closed it", () => {

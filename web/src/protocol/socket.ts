@@ -191,21 +191,44 @@ export class Socket {
 
   private received(data: unknown): void {
     this.secondsSilent = 0;
+    let tell: () => void;
     try {
       if (!(data instanceof ArrayBuffer)) throw new Error("a text message");
-      const { response } = decodeResponse(data);
-      if (response.case === "frame") this.arrived(this.parts.begin(response.value));
-      else if (response.case === "framePart") this.arrived(this.parts.add(response.value));
-      else if (response.case === "state") this.events.state(response.value);
-      else if (response.case === "picked") this.events.picked(response.value);
-      else if (response.case === "profiled") this.events.profiled(response.value);
-      else if (response.case === "swap") this.events.swap(response.value.swap);
-      // Only now: who takes connections and closes them at once is asked no oftener than who is away.
-      this.attempt = 0;
+      tell = this.understood(data);
     } catch (error) {
       // Another protocol, most likely of a newer server: only loading the page again can help.
       console.error("Eyrie: not understood:", error);
       this.reconnect();
+      return;
+    }
+    // Only now: who takes connections and closes them at once is asked no oftener than who is away.
+    this.attempt = 0;
+    // What a listener throws is the listener's, and no reason to connect again.
+    tell();
+  }
+
+  /** How to tell of it. Throws what cannot be decoded. */
+  private understood(data: ArrayBuffer): () => void {
+    const { response } = decodeResponse(data);
+    switch (response.case) {
+      case "frame": {
+        const arrival = this.parts.begin(response.value);
+        return () => this.arrived(arrival);
+      }
+      case "framePart": {
+        const arrival = this.parts.add(response.value);
+        return () => this.arrived(arrival);
+      }
+      case "state":
+        return () => this.events.state(response.value);
+      case "picked":
+        return () => this.events.picked(response.value);
+      case "profiled":
+        return () => this.events.profiled(response.value);
+      case "swap":
+        return () => this.events.swap(response.value.swap);
+      default:
+        return () => {};
     }
   }
 
@@ -223,8 +246,10 @@ export class Socket {
     if (!this.isLossTold) {
       this.isLossTold = true;
       this.events.lost();
+      if (this.isClosed) return; // by whom it told
     }
     this.events.refused(refusal?.text ?? "");
+    if (this.isClosed) return;
     const delay = Math.max(refusal?.retryAfter ?? 0, reconnectDelay(this.attempt));
     this.timer = window.setTimeout(() => this.connect(), delay);
     this.attempt += 1;
