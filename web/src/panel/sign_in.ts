@@ -29,6 +29,7 @@ function showEmpty(isEmpty: boolean): void {
 }
 
 const entry = new Value<Entry>("needed");
+let isLooking = false; // whether the server wants a token again
 const show = async (token?: string): Promise<void> => entry.set(await logIn(loginUrl, token));
 
 /** Asks for a token until the server takes one, given here or by `entry` becoming another. */
@@ -83,8 +84,10 @@ export async function signIn(): Promise<void> {
  * page stays as it is beneath, with what is not kept of it, and connects again by itself.
  */
 export async function signInAgain(): Promise<void> {
-  if (entry.value !== "ok") return; // it is asking already
+  if (isLooking || entry.value !== "ok") return; // or it is asking already
+  isLooking = true;
   await show();
+  isLooking = false;
   if (entry.value !== "ok") await askForToken();
 }
 
