@@ -143,8 +143,11 @@ TEST_P(DecompositionTest, AViewThatTheDeviceHasNoMemoryForFailsAlone) {
         ChannelTask large = wholeView();
         large.viewWidth = large.viewHeight = fabric::kMaxViewPixels;
         large.pixelViewport = {0, 0, 16, 16};
-        const auto refused = renderer_->render(frame, large);
-        EXPECT_TRUE(absl::IsResourceExhausted(refused.status())) << refused.status();
+        const absl::Status status = renderer_->render(frame, large).status();
+        // A GPU has memory of its own, which may be enough.
+        EXPECT_TRUE(absl::IsResourceExhausted(status) ||
+                    (status.ok() && !renderer_->device().software))
+            << status;
     }
     for (int again = 0; again < 3; ++again) expectEqual(expected, single(frame), "afterwards");
 }

@@ -19,7 +19,7 @@ import { showReadout } from "./panel/readout";
 import { showRenderers } from "./panel/renderers";
 import { showScene } from "./panel/scene";
 import { showSession } from "./panel/session";
-import { isIn, signIn, signInAgain } from "./panel/sign_in";
+import { signedIn, signIn, signInAgain } from "./panel/sign_in";
 import { showStatus } from "./panel/status";
 import { showTerrain } from "./panel/terrain";
 import { setUpToolbar } from "./panel/toolbar";
@@ -70,7 +70,7 @@ function start(): void {
   exposeHooks(state, viewer);
   state.connection.watch(({ kind }) => {
     if (kind === "lost") void signInAgain();
-    else if (kind === "connected") isIn();
+    else if (kind === "connected") signedIn();
   });
 }
 

@@ -92,4 +92,4 @@ export async function signInAgain(): Promise<void> {
 }
 
 /** The server has let this browser in, perhaps for what another tab showed it. */
-export const isIn = (): void => entry.set("ok");
+export const signedIn = (): void => entry.set("ok");
