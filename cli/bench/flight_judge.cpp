@@ -113,7 +113,7 @@ absl::StatusOr<FlightJudge::Expected> FlightJudge::expect(PictureSource& finest,
     ASSIGN_OR_RETURN(coordinator::RenderedFrame drawn, finest.draw(request));
     return Expected{truth::castView(truth::Pinhole(request.camera, request.width, request.height),
                                     *reference_.surface),
-                    std::move(drawn.image), drawn.statistics.tauAchievedPixels};
+                    std::move(drawn.image)};
 }
 
 absl::StatusOr<FlightJudge::Judged> FlightJudge::judge(
@@ -145,12 +145,11 @@ FlightJudge::Judged FlightJudge::judge(const Frame& frame, const Expected& expec
     const std::vector<float> depth = fabric::depthMetres(drawn.image);
     const double promised = drawn.statistics.tauAchievedPixels;
     const double stretched = stretch(drawn.image.area, how_.width, how_.height);
-    const bool isCoarser = promised > tauPixels && promised > expected.finestPixels;
     ShownTriangles shown(reference_, camera,
                          lod::View(frame.camera, camera.width(), camera.height()), tauPixels,
                          remote_);
     truth::Suspects suspects{promised + kRasterPixels, {}};
-    const bool isOfOneCut = drawn.statistics.complete && !isCoarser;
+    const bool isOfOneCut = drawn.statistics.complete && !drawn.statistics.memoryRaisedTau;
     if (isOfOneCut)
         suspects.shown = [&](double x, double y, double metres) { return shown.at(x, y, metres); };
     Judged result;

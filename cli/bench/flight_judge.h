@@ -76,7 +76,6 @@ private:
     struct Expected {
         truth::ReferenceView view;
         fabric::Image finest;
-        double finestPixels;  ///< what that promises
     };
     struct Frame {
         double seconds = 0;

@@ -44,7 +44,7 @@ std::optional<truth::DrawnPoint> ShownTriangles::at(double x, double y, double d
         return std::nullopt;
     const auto object = std::ranges::upper_bound(ends_, found->triangle);
     return truth::DrawnPoint{found->point, static_cast<std::size_t>(object - ends_.begin()),
-                             found->mayHaveDepth, found->isAtSide};
+                             found->mayHaveDepth, found->isAtEnd};
 }
 
 }  // namespace eyrie::cli::bench

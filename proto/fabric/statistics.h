@@ -45,7 +45,8 @@ struct FrameStatistics {
     /// Bound on the screen-space error of everything drawn. May exceed what was asked for when the
     /// data end (the finest level is drawn) or are missing.
     double tauAchievedPixels = 0;
-    bool complete = true;  ///< false when data that the frame needs are not there (yet)
+    bool complete = true;          ///< false when data that the frame needs are not there (yet)
+    bool memoryRaisedTau = false;  ///< above what was asked for, of some of what is drawn
     std::uint64_t triangles = 0;
     std::uint64_t points = 0;
     std::uint64_t nodes = 0;        ///< LOD nodes drawn
@@ -72,6 +73,7 @@ inline void accumulate(FrameStatistics& sum, const FrameStatistics& part) {
     sum.tauAskedPixels = std::max(sum.tauAskedPixels, part.tauAskedPixels);
     sum.tauAchievedPixels = std::max(sum.tauAchievedPixels, part.tauAchievedPixels);
     sum.complete = sum.complete && part.complete;
+    sum.memoryRaisedTau = sum.memoryRaisedTau || part.memoryRaisedTau;
     sum.triangles += part.triangles;
     sum.points += part.points;
     sum.nodes += part.nodes;

@@ -141,6 +141,7 @@ std::string statisticsJson(const fabric::FrameStatistics& statistics, int width,
   "tauAsked": {},
   "tauAchieved": {},
   "complete": {},
+  "memoryRaisedTau": {},
   "triangles": {},
   "points": {},
   "nodes": {},
@@ -158,12 +159,13 @@ std::string statisticsJson(const fabric::FrameStatistics& statistics, int width,
 }}
 )",
         width, height, numberJson(statistics.tauAskedPixels),
-        numberJson(statistics.tauAchievedPixels), statistics.complete, statistics.triangles,
-        statistics.points, statistics.nodes, statistics.nodesHidden, statistics.pagesLoaded,
-        statistics.bytesLoaded, statistics.pagesMissing, statistics.pagesFailed,
-        statistics.tilesDecodedOnGpu, numberJson(statistics.normalErrorDegrees),
-        numberJson(statistics.normalErrorMeanDegrees), millisecondsJson(statistics.milliseconds),
-        fabric::limitingStage(statistics.milliseconds), deviceJson(device));
+        numberJson(statistics.tauAchievedPixels), statistics.complete, statistics.memoryRaisedTau,
+        statistics.triangles, statistics.points, statistics.nodes, statistics.nodesHidden,
+        statistics.pagesLoaded, statistics.bytesLoaded, statistics.pagesMissing,
+        statistics.pagesFailed, statistics.tilesDecodedOnGpu,
+        numberJson(statistics.normalErrorDegrees), numberJson(statistics.normalErrorMeanDegrees),
+        millisecondsJson(statistics.milliseconds), fabric::limitingStage(statistics.milliseconds),
+        deviceJson(device));
 }
 
 }  // namespace eyrie::wire

@@ -80,6 +80,7 @@ v1::FrameStatistics toMessage(const fabric::FrameStatistics& statistics) {
     message.set_bytes_loaded(statistics.bytesLoaded);
     message.set_pages_missing(statistics.pagesMissing);
     message.set_pages_failed(statistics.pagesFailed);
+    message.set_memory_raised_tau(statistics.memoryRaisedTau);
     message.set_tiles_decoded_on_gpu(statistics.tilesDecodedOnGpu);
     message.set_normal_error_degrees(statistics.normalErrorDegrees);
     message.set_normal_error_mean_degrees(statistics.normalErrorMeanDegrees);
@@ -112,6 +113,7 @@ absl::StatusOr<fabric::FrameStatistics> fromMessage(const v1::FrameStatistics& m
     statistics.bytesLoaded = message.bytes_loaded();
     statistics.pagesMissing = message.pages_missing();
     statistics.pagesFailed = message.pages_failed();
+    statistics.memoryRaisedTau = message.memory_raised_tau();
     statistics.tilesDecodedOnGpu = message.tiles_decoded_on_gpu();
     if (statistics.pagesFailed > statistics.pagesMissing)
         return absl::InvalidArgumentError(

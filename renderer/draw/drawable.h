@@ -30,7 +30,7 @@ class Surface;
 
 namespace eyrie::draw {
 
-/// Share of an interactive frame that may go into copying what has come to the device.
+/// What an interactive frame spends at most on copying what has come to the device.
 inline constexpr std::chrono::duration<double, std::milli> kUploadTime{3};
 
 /// One LOD node of a frame's cut.
@@ -70,6 +70,7 @@ struct CutRequest {
 struct Cut {
     std::vector<Piece> pieces;  ///< ascending by rangePosition
     bool isComplete = true;     ///< false when data that would lower the error are to come
+    bool memoryRaisedTau = false;
     std::uint64_t pagesLoaded = 0;
     std::uint64_t bytesLoaded = 0;   ///< of these, as they lie in their file
     std::uint64_t pagesMissing = 0;  ///< that the wanted cut needs; coarser ones stand in

@@ -245,6 +245,7 @@ Cut MeshChoice::select(const CutRequest& request) {
                 return !paging_->isResident(node.node) && paging_->isFailing(node.node);
             }));
     cut.isComplete = cut.pagesMissing == 0 && choice.isLowest;
+    cut.memoryRaisedTau = step > 0;
     cut.pieces = piecesOf(drawn, shares);
     errorPixels_ = errorOf(drawn, request);
     wanted_.clear();

@@ -10,6 +10,7 @@ namespace {
 
 void addTo(fabric::FrameStatistics& statistics, const Cut& cut) {
     statistics.complete = statistics.complete && cut.isComplete;
+    statistics.memoryRaisedTau = statistics.memoryRaisedTau || cut.memoryRaisedTau;
     statistics.pagesLoaded += cut.pagesLoaded;
     statistics.bytesLoaded += cut.bytesLoaded;
     statistics.pagesMissing += cut.pagesMissing;

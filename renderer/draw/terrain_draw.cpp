@@ -258,6 +258,7 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
 
     Cut cut;
     cut.isComplete = result.pagesMissing == 0 && choice.isLowest;
+    cut.memoryRaisedTau = step > 0;
     cut.pagesLoaded = result.loaded.pages;
     cut.tilesDecodedOnGpu = result.tilesDecodedOnGpu;
     cut.bytesLoaded = result.loaded.bytes;

@@ -18,14 +18,16 @@ namespace {
 constexpr double kSnapPixels = 1.0 / 256;
 constexpr int kFineRays = 16;       ///< a pixel's side
 constexpr int kMostFinePixels = 9;  ///< to each side; what lies farther off is seen at centres
-/// To explain the pixels of one picture; a few seconds. More are no exceptions.
-constexpr std::size_t kMostRaysAround = 1'000'000;
+/// To explain a picture's pixels, of those that a window has; some ten seconds. More are no
+/// exceptions.
+constexpr std::size_t kMostRaysAround = 4'000'000;
 /// Beside a pixel's centre a seam between triangles may open. More than what corners are rounded
 /// by, for a surface may be seen at an angle; and what is promised, but no slit that shows.
 constexpr double kSeamPixels = 1.0 / 64;
 constexpr double kMostSlitPixels = 1.0 / 16;
-constexpr int kMostSeams = 64;  ///< of one picture
-constexpr int kMostEnds = 256;  ///< the same
+constexpr std::size_t kMostSeams = 64;  ///< of so many pixels
+constexpr std::size_t kMostEnds = 256;  ///< the same
+constexpr std::size_t kWindowPixels = 1280 * 720;
 
 template <typename Function>
 void forEachRow(int rows, Function function) {
@@ -57,7 +59,8 @@ public:
           suspects_(suspects),
           reference_(view.hits),
           around_(surroundings(view.hits, camera_.width(), edgePixels)),
-          displacement_(truth::displacements(camera_, depth, surface_)) {}
+          displacement_(truth::displacements(camera_, depth, surface_)),
+          windows_((depth.size() + kWindowPixels - 1) / kWindowPixels) {}
 
     DepthComparison run(LookAround lookAround) {
         const double above = lookAround == LookAround::All ? kSnapPixels : farthestOnly();
@@ -172,7 +175,9 @@ private:
         auto fault = faultOf(tested, around);
         if (fault == nullptr)
             return;
-        if (raysAround_ < kMostRaysAround)
+        if (isShownRightly(x, y, tested, around) || isThin(x, y, tested, around))
+            return;
+        if (raysAround_ < kMostRaysAround * windows_)
             fault = faultEverywhereAround(x, y, tested);
         else if (isExplained(x, y, tested, around))
             fault = nullptr;
@@ -183,15 +188,20 @@ private:
     /// Whether the source has what is drawn before everything that rays hit: something too thin for
     /// them.
     bool isThin(int x, int y, double tested, const Surroundings& around) const {
+        if (!(tested < around.nearest))
+            return false;
         if (!(displacement_[index(x, y)] <= std::min<double>(edge_, suspects_.abovePixels)))
             return false;
         const auto source = surface_.counterpart(camera_.rayThrough(x + 0.5, y + 0.5).at(tested));
-        return source && camera_.depth(*source) < around.nearest - slack(tested);
+        if (!source)
+            return false;
+        const double depth = camera_.depth(*source);
+        return depth < around.nearest - slack(tested) && tested >= depth - slack(tested);
     }
 
     /// Whether what is drawn, or nothing, is what is seen through seams.
     bool isThroughSeams(int x, int y, double tested) {
-        if (++seams_ > kMostSeams)
+        if (++seams_ > kMostSeams * windows_)
             return false;
         const double reach = kSeamPixels + std::min(suspects_.abovePixels, kMostSlitPixels);
         const auto seen = surface_.throughSeams(camera_.rayThrough(x + 0.5, y + 0.5),
@@ -201,7 +211,7 @@ private:
 
     /// Whether the source ends beside the point at this depth, be it where something hides that.
     bool endsBeside(int x, int y, double depth) {
-        if (++ends_ > kMostEnds)
+        if (++ends_ > kMostEnds * windows_)
             return false;
         return surface_.endsWithin(camera_.rayThrough(x + 0.5, y + 0.5).at(depth),
                                    reachOfEnds(depth),
@@ -254,10 +264,10 @@ private:
         return drawn && drawn->mayHaveDepth && isRight(*drawn, around);
     }
 
-    /// Whether a side of what is drawn where the source is leaves the pixel to what is behind.
-    bool isBesideASide(int x, int y, const Surroundings& around) const {
+    /// Whether what is drawn where the source is ends there and leaves the pixel to what is behind.
+    bool isBesideAnEnd(int x, int y, const Surroundings& around) const {
         const auto drawn = shownAt(x, y, around.farthest);
-        return drawn && drawn->isAtSide && isRight(*drawn, around);
+        return drawn && drawn->isAtEnd && isRight(*drawn, around);
     }
 
     /// The same by rays through the whole area, for what is too thin for pixels' centres; until
@@ -282,15 +292,14 @@ private:
     }
 
     /// By other than where the pixel's depth is. A triangle seen edge-on gives a pixel beside it
-    /// any depth of its plane; and one whose side is next to a pixel's centre leaves it to what is
-    /// behind, where the source has a slit that something hid.
+    /// any depth of its plane; and where what is drawn ends next to a pixel's centre, that is left
+    /// to what is behind, where the source has a slit that something hid.
     bool isExplained(int x, int y, double tested, const Surroundings& around) {
-        if (isShownRightly(x, y, tested, around))
+        if (isShownRightly(x, y, tested, around) || isThin(x, y, tested, around))
             return true;
-        return tested < around.nearest
-                   ? isThin(x, y, tested, around)
-                   : isThroughSeams(x, y, tested) || isBesideASide(x, y, around) ||
-                         isBesideEnds(x, y, tested);
+        return tested >= around.nearest &&
+               (isThroughSeams(x, y, tested) || isBesideAnEnd(x, y, around) ||
+                isBesideEnds(x, y, tested));
     }
 
     void finishDisplacements() {
@@ -318,8 +327,9 @@ private:
     std::vector<Surroundings> around_;  ///< of pixels' centres within `edge_` pixels
     std::vector<double> displacement_;  ///< NaN for none
     std::size_t raysAround_ = 0;        ///< cast by faultEverywhereAround
-    int seams_ = 0;                     ///< looked through
-    int ends_ = 0;                      ///< looked for
+    std::size_t seams_ = 0;             ///< looked through
+    std::size_t ends_ = 0;              ///< looked for
+    const std::size_t windows_;         ///< that have as many pixels as the picture, rounded up
     DepthComparison result_;
 };
 

@@ -30,7 +30,7 @@ struct DrawnPoint {
     fabric::Vec3 point{0};
     std::size_t source = 0;     ///< which of the reference's it was made of (ReferenceSurface)
     bool mayHaveDepth = false;  ///< drawing it rightly may give the depth that was asked for
-    bool isAtSide = false;      ///< at the very side of a triangle: what is behind may be seen
+    bool isAtEnd = false;       ///< what is drawn ends at it: what is behind may be seen
 };
 
 /// That which a picture point of some depth shows, where known: what may have the depth, or comes
@@ -89,8 +89,8 @@ inline constexpr double kDepthSlack = 4;
 /// A pixel displaced by more than `suspects.abovePixels`, or misplaced, is judged by the drawn
 /// point that `suspects.shown` names for it instead of by its depth, and held against that point's
 /// own source, but only if that point may have the pixel's depth: what it shows is what was drawn
-/// there. What is seen behind all of the source, be it nothing, is no mistake where a side of what
-/// is drawn before it is at the pixel's centre. Without `suspects.shown`, a suspect that may be of
+/// there. What is seen behind all of the source, be it nothing, is no mistake where what is drawn
+/// before it ends at the pixel's centre. Without `suspects.shown`, a suspect that may be of
 /// another of several sources, beside that one's end, is held against none
 /// (ReferenceSurface::isBesideEndOfOne).
 DepthComparison compareDepth(const Pinhole& camera, std::span<const float> depth,

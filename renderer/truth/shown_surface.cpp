@@ -91,6 +91,46 @@ double distanceToSides(const Before& part, const Pinhole& camera, const Vec2& at
     return least;
 }
 
+bool isCornerOf(const Triangle& triangle, const Vec3& point) {
+    return std::ranges::find(triangle, point) != triangle.end();
+}
+
+bool haveACornerInCommon(const Triangle& one, const Triangle& other) {
+    return std::ranges::any_of(one, [&](const Vec3& corner) { return isCornerOf(other, corner); });
+}
+
+/// How far a picture point is to the left of the line through two others.
+double leftOf(const Vec2& from, const Vec2& to, const Vec2& point) {
+    const Vec2 along = to - from;
+    const Vec2 off = point - from;
+    const double length = glm::length(along);
+    return length > 0 ? (along.x * off.y - along.y * off.x) / length : 0;
+}
+
+/// Whether `other`, which has that side of a triangle too, goes on from it to the other side: on
+/// the screen, and by more than corners are rounded.
+bool goesOn(const Triangle& triangle, std::size_t side, const Triangle& other,
+            const Pinhole& camera) {
+    const Vec3& from = triangle[side];
+    const Vec3& to = triangle[(side + 1) % 3];
+    if (!isCornerOf(other, from) || !isCornerOf(other, to))
+        return false;
+    const auto third = std::ranges::find_if(
+        other, [&](const Vec3& corner) { return corner != from && corner != to; });
+    if (third == other.end() || camera.depth(*third) < fabric::kNearMetres)
+        return false;
+    const auto a = camera.project(from);
+    const auto b = camera.project(to);
+    const auto own = camera.project(triangle[(side + 2) % 3]);
+    const auto its = camera.project(*third);
+    if (!a || !b || !own || !its)
+        return false;
+    const double ownLeft = leftOf(*a, *b, *own);
+    const double itsLeft = leftOf(*a, *b, *its);
+    return std::min(std::abs(ownLeft), std::abs(itsLeft)) > ShownSurface::kReachPixels &&
+           (ownLeft < 0) != (itsLeft < 0);
+}
+
 /// What a triangle's plane is, by where on the screen.
 class Plane {
 public:
@@ -236,23 +276,51 @@ void ShownSurface::add(std::uint32_t triangle) {
 std::optional<ShownSurface::Point> ShownSurface::at(double x, double y, double depth) const {
     std::optional<Point> best;
     double least = std::numeric_limits<double>::infinity();
+    std::vector<std::uint32_t> near;
     for (const std::uint32_t index : tiles_[tileOf(x, y)]) {
         const Before part = partBefore(triangles_[index], camera_, fabric::kNearMetres);
         const Beside shown = nearestShown(part, camera_, {x, y});
         if (!(shown.pixels <= kReachPixels))
             continue;
+        near.push_back(index);
         const Plane plane(triangles_[index], camera_);
         const bool mayHaveDepth = plane.hasWithinReach(x, y, depth);
         const double off = std::abs(plane.depthAt(x, y) - depth);
         const bool isBetter =
             !best || (mayHaveDepth != best->mayHaveDepth ? mayHaveDepth : off < least);
         if (isBetter) {
-            best = Point{shown.point, index, mayHaveDepth,
-                         distanceToSides(part, camera_, {x, y}) <= kReachPixels};
+            best = Point{shown.point, index, mayHaveDepth};
             least = off;
         }
     }
+    if (best)
+        best->isAtEnd = std::ranges::any_of(near, [&](std::uint32_t index) {
+            return haveACornerInCommon(triangles_[index], triangles_[best->triangle]) &&
+                   hasEndAt(x, y, index, near);
+        });
     return best;
+}
+
+bool ShownSurface::hasEndAt(double x, double y, std::uint32_t triangle,
+                            std::span<const std::uint32_t> near) const {
+    const Triangle& own = triangles_[triangle];
+    const bool isCut = std::ranges::any_of(
+        own, [&](const Vec3& corner) { return camera_.depth(corner) < fabric::kNearMetres; });
+    if (isCut)  // it ends at the near plane, too
+        return distanceToSides(partBefore(own, camera_, fabric::kNearMetres), camera_, {x, y}) <=
+               kReachPixels;
+    for (std::size_t side = 0; side < 3; ++side) {
+        const auto from = camera_.project(own[side]);
+        const auto to = camera_.project(own[(side + 1) % 3]);
+        if (!from || !to || distanceToSide(*from, *to, {x, y}) > kReachPixels)
+            continue;
+        const bool isShared = std::ranges::any_of(near, [&](std::uint32_t other) {
+            return other != triangle && goesOn(own, side, triangles_[other], camera_);
+        });
+        if (!isShared)
+            return true;
+    }
+    return false;
 }
 
 }  // namespace eyrie::truth

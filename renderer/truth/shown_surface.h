@@ -30,8 +30,11 @@ public:
         fabric::Vec3 point{0};
         std::size_t triangle = 0;  ///< of those given
         bool mayHaveDepth =
-            false;              ///< rasterisation may give its triangle the depth asked for here
-        bool isAtSide = false;  ///< a side of its triangle is within reach
+            false;  ///< rasterisation may give its triangle the depth asked for here
+        /// A side within reach, of its triangle or of one that has a corner in common with that,
+        /// ends what is drawn: no other triangle goes on from it to the other side. Of triangles
+        /// that reach behind the near plane, and beside those thinner than the reach, any side may.
+        bool isAtEnd = false;
     };
 
     /// The point that picture point (x, y) shows: of what lies within reach, of the triangle that
@@ -41,6 +44,10 @@ public:
 
 private:
     std::size_t tileOf(double x, double y) const;
+    /// Whether `triangle` has a side within reach of a picture point from which none of `near`,
+    /// which are all that are within reach, goes on.
+    bool hasEndAt(double x, double y, std::uint32_t triangle,
+                  std::span<const std::uint32_t> near) const;
     void add(std::uint32_t triangle);
 
     std::span<const Triangle> triangles_;

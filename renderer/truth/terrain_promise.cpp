@@ -46,9 +46,9 @@ absl::StatusOr<PromiseKept> TerrainPromise::hold(const fabric::Camera& camera, d
     const ShownSurface surface(triangles.triangles(), judge);
     const ShownPoint shown = [&](double x, double y, double depth) -> std::optional<DrawnPoint> {
         const auto found = surface.at(x, y, depth);
-        return found ? std::optional(
-                           DrawnPoint{found->point, 0, found->mayHaveDepth, found->isAtSide})
-                     : std::nullopt;
+        return found
+                   ? std::optional(DrawnPoint{found->point, 0, found->mayHaveDepth, found->isAtEnd})
+                   : std::nullopt;
     };
     // An outline may have moved by as much as everything else.
     const fabric::Vec2 step = task.raster ? task.raster->step : fabric::Vec2(1);

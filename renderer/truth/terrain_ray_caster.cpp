@@ -175,11 +175,34 @@ TerrainRayCaster::Extent TerrainRayCaster::blockExtent(int column, int row) cons
     return extent;
 }
 
+bool TerrainRayCaster::hasNodata(int column, int row) const {
+    const int lastRow = std::min((row + 1) * kBlockCells, grid_.rows - 1);
+    const int lastColumn = std::min((column + 1) * kBlockCells, grid_.columns - 1);
+    for (int j = row * kBlockCells; j <= lastRow; ++j)
+        for (int i = column * kBlockCells; i <= lastColumn; ++i)
+            if (std::isnan(post(i, j)))
+                return true;
+    return false;
+}
+
+bool TerrainRayCaster::mayHaveEnd(int column, int row) const {
+    const Level& blocks = levels_.front();
+    for (int j = row - 1; j <= row + 1; ++j)
+        for (int i = column - 1; i <= column + 1; ++i) {
+            const bool isInside = i >= 0 && j >= 0 && i < blocks.columns && j < blocks.rows;
+            if (!isInside || hasNodata_[blocks.index(i, j)] != 0)
+                return true;
+        }
+    return false;
+}
+
 void TerrainRayCaster::buildLevels() {
     Level base{(grid_.columns - 2) / kBlockCells + 1, (grid_.rows - 2) / kBlockCells + 1, {}};
     for (int row = 0; row < base.rows; ++row)
-        for (int column = 0; column < base.columns; ++column)
+        for (int column = 0; column < base.columns; ++column) {
             base.blocks.push_back(blockExtent(column, row));
+            hasNodata_.push_back(hasNodata(column, row) ? 1 : 0);
+        }
     levels_.push_back(std::move(base));
     while (levels_.back().columns > 1 || levels_.back().rows > 1) {
         const Level& fine = levels_.back();
@@ -309,24 +332,40 @@ bool TerrainRayCaster::isEnd(int i, int j) const {
 
 bool TerrainRayCaster::endsWithin(const fabric::Vec3& point, double reach,
                                   const std::function<bool(const fabric::Vec3&)>& isThere) const {
-    constexpr double kMostPosts = 512;
     const fabric::Vec2 centre = toGrid(point.x, point.y);
-    const auto reachAlong = [&](const fabric::Vec2& step) {
-        return std::min(reach / glm::length(step), kMostPosts);
+    const fabric::Vec2 posts(reach / glm::length(grid_.perColumn),
+                             reach / glm::length(grid_.perRow));
+    struct Stretch {
+        int first, last;
     };
-    const fabric::Vec2 posts(reachAlong(grid_.perColumn), reachAlong(grid_.perRow));
-    const auto first = [](double from) { return static_cast<int>(std::max(0.0, std::ceil(from))); };
-    const auto last = [](double to, int count) {
-        return static_cast<int>(std::min<double>(count - 1, std::floor(to)));
+    const auto within = [](double middle, double half, int count) {
+        return Stretch{
+            static_cast<int>(std::clamp<double>(std::ceil(middle - half), 0, count)),
+            static_cast<int>(std::clamp<double>(std::floor(middle + half), -1, count - 1))};
     };
-    for (int j = first(centre.y - posts.y); j <= last(centre.y + posts.y, grid_.rows); ++j)
-        for (int i = first(centre.x - posts.x); i <= last(centre.x + posts.x, grid_.columns); ++i) {
-            if (!isEnd(i, j))
-                continue;
-            const fabric::Vec2 place = grid_.origin + static_cast<double>(i) * grid_.perColumn +
-                                       static_cast<double>(j) * grid_.perRow;
-            if (isThere({place.x, place.y, post(i, j)}))
-                return true;
+    const Stretch columns = within(centre.x, posts.x, grid_.columns);
+    const Stretch rows = within(centre.y, posts.y, grid_.rows);
+    const auto isEndThere = [&](int i, int j) {
+        if (!isEnd(i, j))
+            return false;
+        const fabric::Vec2 place = grid_.origin + static_cast<double>(i) * grid_.perColumn +
+                                   static_cast<double>(j) * grid_.perRow;
+        return isThere({place.x, place.y, post(i, j)});
+    };
+    const Level& blocks = levels_.front();
+    const auto blockOf = [](int post, int count) {
+        return std::min(post / kBlockCells, count - 1);
+    };
+    for (int j = rows.first; j <= rows.last; ++j)
+        for (int i = columns.first; i <= columns.last;) {
+            const int column = blockOf(i, blocks.columns);
+            const int end =
+                column + 1 == blocks.columns ? grid_.columns : (column + 1) * kBlockCells;
+            if (mayHaveEnd(column, blockOf(j, blocks.rows)))
+                for (; i < end && i <= columns.last; ++i)
+                    if (isEndThere(i, j))
+                        return true;
+            i = end;
         }
     return false;
 }

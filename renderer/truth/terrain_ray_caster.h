@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "renderer/truth/reference_surface.h"
@@ -45,7 +46,7 @@ public:
     /// way of its own is hit in there. (Not at the first hits with the upper and the lower sides of
     /// all cells: through a hole a ray gets below the ground, and meets the lower side first.)
     HitRange hitRange(const Ray& ray) const override;
-    /// Asked about are posts beside nodata or at the rim; no more than 512 posts away.
+    /// Asked about are posts beside nodata or at the rim.
     bool endsWithin(const fabric::Vec3& point, double reach,
                     const std::function<bool(const fabric::Vec3&)>& isThere) const override;
     /// The point of the same column; of the readings, the nearest.
@@ -55,7 +56,7 @@ public:
 
     /// Bytes that so many posts take here: heights, and the pyramid over them.
     static constexpr std::uint64_t bytesFor(std::uint64_t posts) {
-        return posts * sizeof(float) + posts / 16 * sizeof(Extent);
+        return posts * sizeof(float) + posts / 16 * sizeof(Extent) + posts / 64;
     }
 
 private:
@@ -79,6 +80,9 @@ private:
     /// Whether there is a post, with data, beside one that is not or has none.
     bool isEnd(int i, int j) const;
     Extent blockExtent(int column, int row) const;
+    bool hasNodata(int column, int row) const;
+    /// Whether a post of a block of levels_[0] may be an end.
+    bool mayHaveEnd(int column, int row) const;
     void buildLevels();
     void visit(Traversal& traversal, int level, int column, int row) const;
     void visitCells(Traversal& traversal, int column, int row) const;
@@ -89,6 +93,7 @@ private:
 
     HeightGrid grid_;
     std::vector<Level> levels_;  ///< [0] has blocks of kBlockCells^2 cells, each next twice that
+    std::vector<std::uint8_t> hasNodata_;  ///< of each block of levels_[0], 0 or 1
 };
 
 }  // namespace eyrie::truth

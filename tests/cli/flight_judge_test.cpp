@@ -181,7 +181,7 @@ TEST(FlightJudge, AFrameWithHolesIsWorseThanOneThatComesNearItsPromise) {
 }
 
 /// With a hole in it, drawn by so many channels.
-FrameError judgedWithAHole(std::size_t channels, bool complete, double promisedPixels) {
+FrameError judgedWithAHole(std::size_t channels, bool complete, bool memoryRaisedTau) {
     const auto plane = LiftedPlane::source();
     ReferenceScene scene{{{{plane, nullptr}, "plane.eyt"}},
                          std::make_shared<truth::PlacedSurfaces>(
@@ -196,7 +196,7 @@ FrameError judgedWithAHole(std::size_t channels, bool complete, double promisedP
     request.height = 90;
     std::vector<coordinator::RenderedFrame> shown{exact.draw(request).value()};
     shown[0].statistics.complete = complete;
-    shown[0].statistics.tauAchievedPixels = promisedPixels;
+    shown[0].statistics.memoryRaisedTau = memoryRaisedTau;
     shown[0].parts.resize(channels);
     for (std::size_t row = 40; row < 50; ++row)
         std::fill_n(shown[0].image.depth.begin() + static_cast<std::ptrdiff_t>(row * 160 + 75), 10,
@@ -208,16 +208,16 @@ FrameError judgedWithAHole(std::size_t channels, bool complete, double promisedP
 
 TEST(FlightJudge, HolesBreakNoPromiseBetweenChannelsOfDifferentDataAlone) {
     for (const FrameError& seams :
-         {judgedWithAHole(2, false, 1), judgedWithAHole(2, true, 2)}) {  // tau was raised to 2
+         {judgedWithAHole(2, false, false), judgedWithAHole(2, true, true)}) {
         EXPECT_EQ(seams.holes, 100U) << "they are told";
         EXPECT_TRUE(keepsPromise(seams));
         FrameError drawnBeside = seams;
         drawnBeside.falseHits = 1;
         EXPECT_FALSE(keepsPromise(drawnBeside));
     }
-    EXPECT_FALSE(keepsPromise(judgedWithAHole(2, true, 1)));
-    EXPECT_FALSE(keepsPromise(judgedWithAHole(1, false, 1)));
-    EXPECT_FALSE(keepsPromise(judgedWithAHole(1, true, 2)));
+    EXPECT_FALSE(keepsPromise(judgedWithAHole(2, true, false)));
+    EXPECT_FALSE(keepsPromise(judgedWithAHole(1, false, false)));
+    EXPECT_FALSE(keepsPromise(judgedWithAHole(1, true, true)));
 }
 
 /// Tells at which tau it was asked for pictures.

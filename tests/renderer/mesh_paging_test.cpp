@@ -234,6 +234,8 @@ TEST_F(MeshPaging, AQuarterOfTheMemoryRaisesTauAndIsKept) {
     for (const Completeness completeness : {Completeness::Complete, Completeness::Interactive}) {
         const auto result = render(*renderer, 2.2, 0.05, completeness);
         EXPECT_GT(result.statistics.tauAchievedPixels, all.statistics.tauAchievedPixels);
+        EXPECT_TRUE(result.statistics.memoryRaisedTau);
+        EXPECT_FALSE(all.statistics.memoryRaisedTau);
         EXPECT_TRUE(std::isfinite(result.statistics.tauAchievedPixels));
         EXPECT_EQ(result.statistics.pagesMissing, 0U);
         EXPECT_LE(renderer->memory().deviceBytes, options.memoryBytes);

@@ -82,7 +82,7 @@ function sayWhatIsSeen() {
   say(byId("what"), `**${bench.scene}**, flight **${bench.flight}**, ${bench.width} × ${bench.height} pixels, ${bench.frames} frames × ${bench.repeats} ${bench.repeats === 1 ? "pass" : "passes"} after one that loads`);
   if (!run) return;
   say(byId("curve-says"), `At ${run.label} half of all frames take **${number(run.frameMs.p50)} ms** or less and 95 % at most **${number(run.frameMs.p95)} ms**` +
-    (run.errorPx ? `, and the worst pixel is **${number(run.errorPx.max)} px** from where the source has it. The shaded gap is error that was promised for but not made.` : ". Every frame keeps the error it promises.") + runs.filter(smaller).map((one) => ` At ${one.label}, ${processes(one)}, **${smaller(one)}**.`).join(""));
+    (run.errorPx ? `, and the worst pixel is **${number(run.errorPx.max)} px** from where the source has it. The shaded gap is error that was promised for but not made.` : ". What each frame promises is a bound; errors were not measured.") + runs.filter(smaller).map((one) => ` At ${one.label}, ${processes(one)}, **${smaller(one)}**.`).join(""));
   byId("curve-note").textContent = measured.length > 0
     ? "Promised is a bound that holds before a frame is drawn; measured is what an independent ray caster in double precision finds against the full-resolution source. Measured must never be to the right of promised by more than the 1/256 of a drawn pixel that rasterisation rounds: promises less than that may seem broken here."
     : "Promised is a bound, derived in docs/errors.md. With --reference it is held against the full-resolution source.";

@@ -138,6 +138,7 @@ TEST(StatisticsJson, HasTheDesignsFieldsAsPlainNumbers) {
     fabric::FrameStatistics statistics;
     statistics.tauAskedPixels = 1;
     statistics.tauAchievedPixels = 0.75;
+    statistics.memoryRaisedTau = true;
     statistics.triangles = 1'234'567'890'123;
     statistics.pagesMissing = 3;
     statistics.pagesFailed = 2;
@@ -164,6 +165,7 @@ TEST(StatisticsJson, HasTheDesignsFieldsAsPlainNumbers) {
     EXPECT_EQ(number("normalErrorDegrees"), 31.5);
     EXPECT_EQ(number("normalErrorMeanDegrees"), 2.25);
     EXPECT_TRUE(json.fields().at("complete").bool_value());
+    EXPECT_TRUE(json.fields().at("memoryRaisedTau").bool_value());
     const auto& milliseconds = json.fields().at("milliseconds").struct_value().fields();
     EXPECT_EQ(milliseconds.at("draw").number_value(), 20);
     EXPECT_EQ(milliseconds.at("vertices").number_value(), 7);

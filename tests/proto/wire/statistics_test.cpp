@@ -12,9 +12,8 @@ namespace eyrie::wire {
 namespace {
 
 fabric::FrameStatistics sample() {
-    return {1,  2.5, false, 10,   20,
-            30, 8,   40,    4000, 6,
-            5,  7,   31.5,  2.25, {0.1, 0.2, 0.3, 0.4, 1.5, 0.15, 0.05}};
+    return {1,  2.5,  false, true, 10, 20,   30,   8,
+            40, 4000, 6,     5,    7,  31.5, 2.25, {0.1, 0.2, 0.3, 0.4, 1.5, 0.15, 0.05}};
 }
 
 TEST(WireStatistics, ComeBackAsTheyWere) {

@@ -36,15 +36,15 @@ TerrainRayCaster ridge(double raisedMetres) {
     return TerrainRayCaster(std::move(grid));
 }
 
-Pinhole southernView() {
-    return Pinhole({.eye = {500, -300, 300}, .target = {500, 500, 50}, .fovYDegrees = 45}, kWidth,
+Pinhole southernView(int width = kWidth) {
+    return Pinhole({.eye = {500, -300, 300}, .target = {500, 500, 50}, .fovYDegrees = 45}, width,
                    kHeight);
 }
 
 std::vector<float> depthOf(const ReferenceSurface& surface, const Pinhole& camera) {
     std::vector<float> depth;
-    for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x)
+    for (int y = 0; y < camera.height(); ++y)
+        for (int x = 0; x < camera.width(); ++x)
             depth.push_back(
                 static_cast<float>(surface.hitRange(camera.rayThrough(x + 0.5, y + 0.5)).first));
     return depth;
@@ -196,7 +196,7 @@ TEST(CompareDepth, JudgesMisplacedPixelsByTheDrawnPointWhereOneIsKnown) {
 /// The ridge's own triangles, as a drawing of it has them.
 class DrawnRidge : public testing::Test {
 protected:
-    DrawnRidge() {
+    explicit DrawnRidge(int width = kWidth) : camera_(southernView(width)) {
         const HeightGrid& grid = reference_.grid();
         const auto corner = [&](int i, int j) {
             return fabric::Vec3(10 * i, 1000 - 10 * j,
@@ -214,8 +214,8 @@ protected:
         const Suspects suspects{
             promised, [this](double x, double y, double metres) {
                 const auto found = surface_->at(x, y, metres);
-                return found ? std::optional(DrawnPoint{found->point, 0, found->mayHaveDepth,
-                                                        found->isAtSide})
+                return found ? std::optional(
+                                   DrawnPoint{found->point, 0, found->mayHaveDepth, found->isAtEnd})
                              : std::nullopt;
             }};
         return compareDepth(castView(camera_, reference_), depth, static_cast<int>(promised) + 1,
@@ -223,7 +223,7 @@ protected:
     }
 
     const TerrainRayCaster reference_ = ridge(0);
-    const Pinhole camera_ = southernView();
+    const Pinhole camera_;
     std::vector<Triangle> triangles_;
     std::optional<ShownSurface> surface_;
 };
@@ -262,6 +262,24 @@ TEST_F(DrawnRidge, IsNotLetOffWhatItHides) {
     for (std::size_t y = 30; y < 60; ++y)
         for (std::size_t x = 60; x < 100; ++x) depth[y * kWidth + x] = 5000;
     EXPECT_GT(judged(depth, 0.1).misplaced, 1000U);
+}
+
+/// In its middle column pixels' centres lie on sides of triangles.
+class DrawnRidgeWithSides : public DrawnRidge {
+protected:
+    DrawnRidgeWithSides() : DrawnRidge(kWidth + 1) {}
+};
+
+TEST_F(DrawnRidgeWithSides, IsNotLetOffCracksBetweenItsTriangles) {
+    const std::vector<float> right = depthOf(reference_, camera_);
+    const DepthComparison whole = judged(right, 0.1);
+    EXPECT_EQ(whole.holes + whole.misplaced, 0U);
+    for (const float seen : {std::numeric_limits<float>::infinity(), 5000.0F}) {
+        std::vector<float> depth = right;
+        for (std::size_t y = 30; y < 60; ++y) depth[y * (kWidth + 1) + kWidth / 2] = seen;
+        const DepthComparison found = judged(depth, 0.1);
+        EXPECT_EQ(found.holes + found.misplaced, 30U) << seen;
+    }
 }
 
 /// Over a terrain's nodata there is nothing to hold its triangles against, but their outline.
@@ -315,13 +333,13 @@ TEST(CompareDepth, LooksThroughSlitsBesideWhatIsDrawnOnly) {
     auto depth = depthOf(reference, camera);
     const std::size_t pixel = 30U * kWidth + 80U;
     const double right = depth[pixel];
-    const auto misplacedAt = [&](double seen, double drawn, bool isAtSide = true) {
+    const auto misplacedAt = [&](double seen, double drawn, bool isAtEnd = true) {
         depth[pixel] = static_cast<float>(seen);
         // Of what is drawn here, it names what is nearest to the depth it is asked for.
         const Suspects suspects{.shown = [&](double x, double y, double asked) {
             const double nearest = std::abs(asked - seen) < std::abs(asked - drawn) ? seen : drawn;
             return std::optional(
-                DrawnPoint{camera.rayThrough(x, y).at(nearest), 0, nearest == asked, isAtSide});
+                DrawnPoint{camera.rayThrough(x, y).at(nearest), 0, nearest == asked, isAtEnd});
         }};
         return compareDepth(camera, depth, reference, 1, suspects).misplaced;
     };

@@ -114,13 +114,42 @@ TEST(ShownSurface, KnowsWhatHasASideAtThePoint) {
     const Pinhole camera = northward();
     const ShownSurface shown(plate, camera);
     const double bottom = kHeight / 2.0 - 64 * 9 / 20.0;
-    const auto isAtSide = [&](double above) {
-        return shown.at(kWidth / 2.0, bottom + above, 20)->isAtSide;
+    const auto isAtEnd = [&](double above) {
+        return shown.at(kWidth / 2.0, bottom + above, 20)->isAtEnd;
     };
-    EXPECT_TRUE(isAtSide(-0.9 * ShownSurface::kReachPixels));
-    EXPECT_TRUE(isAtSide(0.9 * ShownSurface::kReachPixels));
-    EXPECT_FALSE(isAtSide(1.1 * ShownSurface::kReachPixels));
-    EXPECT_FALSE(isAtSide(5));
+    EXPECT_TRUE(isAtEnd(-0.9 * ShownSurface::kReachPixels));
+    EXPECT_TRUE(isAtEnd(0.9 * ShownSurface::kReachPixels));
+    EXPECT_FALSE(isAtEnd(1.1 * ShownSurface::kReachPixels));
+    EXPECT_FALSE(isAtEnd(5));
+}
+
+/// Four triangles around the picture's middle, of which those to the left and right may be missing,
+/// or stand on other corners, or be folded back.
+TEST(ShownSurface, EndsWhereNoTriangleGoesOn) {
+    const Pinhole camera = northward();
+    const Vec3 middle(0, 20, 0), left(-9, 20, -1), right(9, 20, -1), above(0, 20, 9),
+        below(0, 20, -9);
+    const std::vector<Triangle> around{{middle, right, above},
+                                       {middle, above, left},
+                                       {middle, left, below},
+                                       {middle, below, right}};
+    const auto isAtEnd = [&](const std::vector<Triangle>& triangles, double x, double y) {
+        const ShownSurface shown(triangles, camera);
+        return shown.at(kWidth / 2.0 + x, kHeight / 2.0 + y, 20)->isAtEnd;
+    };
+    EXPECT_FALSE(isAtEnd(around, 0, 0)) << "all of them share the corner";
+    EXPECT_FALSE(isAtEnd(around, 0, 5)) << "two share the side";
+    auto open = around;
+    open.pop_back();
+    EXPECT_TRUE(isAtEnd(open, 0, 0)) << "one is missing there";
+    EXPECT_TRUE(isAtEnd(open, 0, -5));
+    EXPECT_FALSE(isAtEnd(open, 0, 5)) << "not here";
+    auto apart = around;
+    apart[1][1].z += 1e-9;
+    EXPECT_TRUE(isAtEnd(apart, 0, 5)) << "their sides are not the same";
+    auto folded = around;
+    folded[1][2] = Vec3(8, 21, 1);
+    EXPECT_TRUE(isAtEnd(folded, 0, 5)) << "both lie to the right";
 }
 
 TEST(ShownSurface, ShowsWhatReachesBehindTheEye) {

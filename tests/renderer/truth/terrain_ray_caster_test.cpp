@@ -7,6 +7,8 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -228,6 +230,46 @@ TEST(TerrainRayCaster, EndsAtNodataAndAtItsRim) {
     EXPECT_EQ(endsOf(100, 600, 5)[0], fabric::Vec3(100, 600, 7));
     EXPECT_TRUE(endsOf(-1000, -1000, 50).empty()) << "far outside";
     EXPECT_TRUE(terrain.endsWithin({300, 700, 7}, 1e9, [](const auto&) { return true; }));
+    // Every end once, wherever it lies: all around the rim, and around the gap.
+    EXPECT_EQ(endsOf(300, 700, 1e9).size(), 2U * 41 + 2U * 29 + 8);
+}
+
+/// Of most blocks of posts none is an end, and these are not looked through.
+TEST(TerrainRayCaster, EndsAreThoseOfEveryPost) {
+    constexpr int kColumns = 203;
+    constexpr int kRows = 97;
+    HeightGrid grid{
+        .columns = kColumns, .rows = kRows, .heights = std::vector<float>(kColumns * kRows, 7)};
+    std::mt19937 random(5);
+    for (int gaps = 0; gaps < 3; ++gaps)
+        grid.heights[random() % grid.heights.size()] = std::numeric_limits<float>::quiet_NaN();
+    const auto isGap = [&](int i, int j) {
+        return i < 0 || j < 0 || i >= kColumns || j >= kRows ||
+               std::isnan(grid.heights[static_cast<std::size_t>(j * kColumns + i)]);
+    };
+    std::set<std::pair<int, int>> expected;
+    for (int j = 0; j < kRows; ++j)
+        for (int i = 0; i < kColumns; ++i)
+            for (int k = 0; k < 9; ++k)
+                if (!isGap(i, j) && isGap(i + k % 3 - 1, j + k / 3 - 1))
+                    expected.emplace(i, j);
+    std::set<std::pair<int, int>> found;
+    TerrainRayCaster(grid).endsWithin({0, 0, 7}, 1e9, [&](const fabric::Vec3& end) {
+        EXPECT_TRUE(found.emplace(std::lround(end.x), std::lround(-end.y)).second);
+        return false;
+    });
+    EXPECT_EQ(found, expected);
+}
+
+TEST(TerrainRayCaster, EndsFarAwayAreFound) {
+    HeightGrid grid{.columns = 3001, .rows = 5, .heights = std::vector<float>(3001 * 5, 7)};
+    grid.heights[2 * 3001 + 2500] = std::numeric_limits<float>::quiet_NaN();
+    const TerrainRayCaster terrain(grid);
+    const auto isBesideTheGap = [](const fabric::Vec3& end) {
+        return end.x == 2499 && end.y == -2;
+    };
+    EXPECT_TRUE(terrain.endsWithin({500, -2, 7}, 1999.5, isBesideTheGap));
+    EXPECT_FALSE(terrain.endsWithin({500, -2, 7}, 1998.5, isBesideTheGap));
 }
 
 TEST(TerrainRayCaster, MissesBesideAndAboveThePosts) {
