@@ -13,6 +13,7 @@
 #include "cli/bench/resident_memory.h"
 #include "coordinator/frame/frame_sequence.h"
 #include "coordinator/frame/problem.h"
+#include "fabric/smaller_picture.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli::bench {
@@ -30,11 +31,17 @@ absl::Status nothingSeen(const fabric::Box& bounds) {
                     bounds.max.z, ofSize.empty() ? "fly where the data are" : ofSize));
 }
 
-/// Errors in pixels that are `stretch` times smaller.
-fabric::FrameStatistics ofSizeAskedFor(fabric::FrameStatistics statistics, double stretch) {
-    statistics.tauAchievedPixels *= stretch;
+/// Errors in pixels of the size asked for.
+fabric::FrameStatistics ofSizeAskedFor(const coordinator::RenderedFrame& drawn,
+                                       const coordinator::FrameRequest& asked) {
+    const fabric::PixelViewport& area = drawn.image.area;
+    const double stretched = stretch(area, asked.width, asked.height);
+    fabric::FrameStatistics statistics = drawn.statistics;
+    statistics.tauAchievedPixels =
+        statistics.tauAchievedPixels * stretched +
+        fabric::shapeErrorPixels(asked.width, asked.height, {area.width, area.height});
     if (statistics.budget)
-        statistics.budget->tauPixels *= stretch;
+        statistics.budget->tauPixels *= stretched;
     return statistics;
 }
 
@@ -73,7 +80,7 @@ public:
             const double stretched =
                 stretch(frame.drawn->image.area, request.width, request.height);
             played_.frames.push_back(
-                {pass, seconds, taken.count(), ofSizeAskedFor(frame.drawn->statistics, stretched),
+                {pass, seconds, taken.count(), ofSizeAskedFor(*frame.drawn, request),
                  latency.count(), stretched, showsSomething(*frame.drawn, pictures_.background())});
             played_.device = frame.drawn->device;
             drawing += taken.count();

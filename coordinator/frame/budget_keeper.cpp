@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "fabric/smaller_picture.h"
+
 namespace eyrie::coordinator {
 namespace {
 
@@ -16,10 +18,6 @@ constexpr double kEasy = 0.25;
 
 double pixelsAfter(int halvings) { return std::exp2(-halvings); }
 
-int scaled(int side, int halvings) {
-    return std::max(1, static_cast<int>(std::lround(side * std::sqrt(pixelsAfter(halvings)))));
-}
-
 }  // namespace
 
 bool tellsItsCost(const FrameRequest& request, const fabric::FrameStatistics& statistics) {
@@ -30,8 +28,9 @@ bool tellsItsCost(const FrameRequest& request, const fabric::FrameStatistics& st
 
 BudgetPlan BudgetKeeper::plan(const FrameRequest& request) const {
     const double margin = view_.isCut(request.camera) ? margin_.factor() : 1;
-    return {budgetOf(request, margin), scaled(request.width, halvings_),
-            scaled(request.height, halvings_)};
+    const auto [width, height] =
+        fabric::smallerPicture(request.width, request.height, std::sqrt(pixelsAfter(halvings_)));
+    return {budgetOf(request, margin), width, height};
 }
 
 fabric::FrameBudget BudgetKeeper::budgetOf(const FrameRequest& request, double margin) const {

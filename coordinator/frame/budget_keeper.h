@@ -27,10 +27,10 @@ struct BudgetPlan {
 /// Holds the frame time of one kind of frame (picture size, shading): learns what frames cost, and
 /// makes pictures smaller where even the coarsest tau takes too long.
 ///
-/// Pictures have the size asked for, or 1/2, 1/4 … 1/16 of its pixels. They get smaller at once, by
-/// as many halvings as the time foreseen is too long by; and larger again when the same cut, whose
-/// tau in larger pixels is larger, keeps well clear of the coarsest, and the time of all the pixels
-/// is foreseen to fit. So the step up is not taken back at once.
+/// Pictures have the size asked for, or about 1/2, 1/4 … 1/16 of its pixels. They get smaller at
+/// once, by as many halvings as the time foreseen is too long by; and larger again when the same
+/// cut, whose tau in larger pixels is larger, keeps well clear of the coarsest, and the time of all
+/// the pixels is foreseen to fit. So the step up is not taken back at once.
 ///
 /// The first frame of a new view is foreseen with a margin, for what a triangle costs there is not
 /// known yet, and the view is drawn somewhat coarser for that frame than for the next.

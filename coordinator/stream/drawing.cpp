@@ -6,18 +6,13 @@
 
 #include "fabric/frame_data.h"
 #include "fabric/ground.h"
+#include "fabric/smaller_picture.h"
 
 namespace eyrie::stream {
 namespace {
 
 /// About 1460 x 820.
 constexpr double kMostMovingSoftwarePixels = 1.2e6;
-
-/// Pixels of the picture asked for that one of the picture drawn covers, the longer way.
-double stretch(const ViewRequest& view, const coordinator::FrameRequest& drawn) {
-    return std::max(static_cast<double>(view.frame.width) / drawn.width,
-                    static_cast<double>(view.frame.height) / drawn.height);
-}
 
 }  // namespace
 
@@ -47,12 +42,14 @@ coordinator::FrameRequest drawingOf(const ViewRequest& view, const fabric::Scene
         request.camera = fabric::aboveGround(request.camera, *scene->ground, request.look);
     if (scale == 1)
         return request;
-    const auto scaled = [=](int side) {
-        return std::max(kMinPictureSide, static_cast<int>(std::lround(scale * side)));
-    };
-    request.width = scaled(request.width);
-    request.height = scaled(request.height);
-    request.tauPixels = std::max(fabric::kMinTauPixels, request.tauPixels / stretch(view, request));
+    const auto [width, height] =
+        fabric::smallerPicture(request.width, request.height, scale, kMinPictureSide);
+    request.width = width;
+    request.height = height;
+    const double ofShape =
+        fabric::shapeErrorPixels(view.frame.width, view.frame.height, {width, height});
+    const double left = std::max(request.tauPixels - ofShape, request.tauPixels / 2);
+    request.tauPixels = std::max(fabric::kMinTauPixels, left / stretchOf(view, {width, height}));
     return request;
 }
 
@@ -65,18 +62,25 @@ std::optional<fabric::Vec3> liftOf(const ViewRequest& view, const fabric::SceneI
     return lifted.eye == eye ? std::nullopt : std::optional(lifted.eye - eye);
 }
 
-double stretchOf(const ViewRequest& view, const coordinator::FrameRequest& asked,
-                 const fabric::PixelViewport& drawn) {
-    double within = 1;
-    if (asked.budgetMilliseconds)
-        within = std::max({1.0, static_cast<double>(asked.width) / std::max(1, drawn.width),
-                           static_cast<double>(asked.height) / std::max(1, drawn.height)});
-    return within * stretch(view, asked);
+fabric::PictureSides drawnSides(const coordinator::FrameRequest& asked,
+                                const fabric::PixelViewport& drawn) {
+    const bool mayBeSmaller = asked.budgetMilliseconds && !drawn.isEmpty();
+    return mayBeSmaller ? fabric::PictureSides{drawn.width, drawn.height}
+                        : fabric::PictureSides{asked.width, asked.height};
 }
 
-void tellAtFullSize(fabric::FrameStatistics& statistics, const ViewRequest& view, double stretch) {
+double stretchOf(const ViewRequest& view, const fabric::PictureSides& drawn) {
+    return std::max({1.0, static_cast<double>(view.frame.width) / drawn.width,
+                     static_cast<double>(view.frame.height) / drawn.height});
+}
+
+void tellAtFullSize(fabric::FrameStatistics& statistics, const ViewRequest& view,
+                    const fabric::PictureSides& drawn) {
+    const double stretch = stretchOf(view, drawn);
     statistics.tauAskedPixels = view.frame.tauPixels;
-    statistics.tauAchievedPixels *= stretch;
+    statistics.tauAchievedPixels =
+        statistics.tauAchievedPixels * stretch +
+        fabric::shapeErrorPixels(view.frame.width, view.frame.height, drawn);
     if (statistics.budget)
         statistics.budget->tauPixels *= stretch;
 }

@@ -7,6 +7,7 @@
 
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/stream/viewer_messages.h"
+#include "fabric/smaller_picture.h"
 
 namespace eyrie::stream {
 
@@ -37,12 +38,15 @@ coordinator::FrameRequest drawingOf(const ViewRequest& view, const fabric::Scene
 /// is not at all.
 std::optional<fabric::Vec3> liftOf(const ViewRequest& view, const fabric::SceneInfo* scene);
 
-/// Pixels of the view that one of the picture covers, the longer way: `asked` for, and `drawn`
-/// smaller than that where it was to hold a time. 1 or more.
-double stretchOf(const ViewRequest& view, const coordinator::FrameRequest& asked,
-                 const fabric::PixelViewport& drawn);
+/// Of the picture that was `asked` for, and `drawn` smaller than that where it was to hold a time.
+fabric::PictureSides drawnSides(const coordinator::FrameRequest& asked,
+                                const fabric::PixelViewport& drawn);
 
-/// Puts errors in pixels of the picture into pixels of the view, which are `stretch` smaller.
-void tellAtFullSize(fabric::FrameStatistics& statistics, const ViewRequest& view, double stretch);
+/// Pixels of the view that one of a picture of it covers, the longer way. 1 or more.
+double stretchOf(const ViewRequest& view, const fabric::PictureSides& drawn);
+
+/// Puts errors in pixels of the picture into pixels of the view, to whose sides it is stretched.
+void tellAtFullSize(fabric::FrameStatistics& statistics, const ViewRequest& view,
+                    const fabric::PictureSides& drawn);
 
 }  // namespace eyrie::stream

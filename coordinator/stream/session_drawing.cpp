@@ -189,15 +189,15 @@ void Session::Impl::rendered(const Begun& begun, absl::StatusOr<coordinator::Ren
         for (const auto& seat : seats_) seat->outbox.rendered(now - from);
         setProblem(renderProblem_, coordinator::whyEmpty(*frame));
         setProblem(renderNote_, coordinator::whyPartlyEmpty(*frame));
-        const double stretch = stretchOf(begun.view, begun.request, frame->image.area);
-        tellAtFullSize(frame->statistics, begun.view, stretch);
+        const fabric::PictureSides drawn = drawnSides(begun.request, frame->image.area);
+        tellAtFullSize(frame->statistics, begun.view, drawn);
         if (statistics_ != nullptr)
             statistics_->drawn(id_, *frame, number_);
         Picture picture{begun.view,
                         std::make_shared<const coordinator::RenderedFrame>(*std::move(frame)),
                         begun.at};
         picture.level = begun.level;
-        picture.isReduced = stretch > 1;
+        picture.isReduced = stretchOf(begun.view, drawn) > 1;
         picture.shown = begun.request.shown;
         if (!(begun.request.camera == begun.view.frame.camera))
             picture.liftedCamera = begun.request.camera;

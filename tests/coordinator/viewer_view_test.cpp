@@ -224,8 +224,8 @@ TEST(Viewer, DrawsFewerPixelsOnACpuWhileTheViewMovesAndAllAtRest) {
     browser.send(wide);
     const auto moving = browser.nextFrame();
     ASSERT_TRUE(moving.has_value());
-    EXPECT_EQ(moving->width(), 1461);
-    EXPECT_EQ(moving->height(), 822);
+    EXPECT_EQ(moving->width(), 1456);
+    EXPECT_EQ(moving->height(), 819);
     browser.acknowledge(moving->frame_number());
     const auto still = browser.nextFrame();
     ASSERT_TRUE(still.has_value());
