@@ -39,9 +39,9 @@ absl::Status checkNames(const Options& options) {
 absl::Status convert(config::Configuration configuration, const std::string& path) {
     if (isJson(path))
         return writeText(config::writeJson(configuration), path);
-    // Without a version JSON is of the newest, and text of the oldest.
-    if (configuration.version.empty())
-        configuration.version = config::kNewestVersion;
+    // Whatever it was read from, it has what the newest version has: text of an older one would be
+    // brought to that once more.
+    configuration.version = config::kNewestVersion;
     return writeText(config::writeEqc(configuration), path);
 }
 
@@ -100,9 +100,10 @@ void addCheck(CLI::App& app, Run& run) {
         ->check(CLI::Range(1, 1024));
     command->add_flag("--quiet", options->quiet, "Only errors, warnings and notes");
     command->footer(
-        "Prints resources, destination channels, and each compound with all that it inherits: its\n"
-        "tasks, its share of the picture, and what its eyes see. Errors and warnings come with\n"
-        "line and column or, of JSON, with the field; with an error the exit status is 2.\n\n"
+        "Prints resources, canvases, destination channels, and each compound with all that it\n"
+        "inherits: its tasks, its share of the picture, and what its eyes see, where heads are in\n"
+        "their places. Errors and warnings come with line and column or, of JSON, with the field;\n"
+        "with an error the exit status is 2.\n\n"
         "Examples:\n"
         "  eyrie check cave.eqc\n"
         "  eyrie check cave.eqc --renderers 4\n"

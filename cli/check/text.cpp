@@ -58,9 +58,31 @@ std::string resources(const Configuration& configuration) {
     return text;
 }
 
+std::string canvases(const Configuration& configuration) {
+    std::string text = "\nCanvases\n";
+    for (std::size_t i = 0; i < configuration.canvases.size(); ++i) {
+        const config::Canvas& canvas = configuration.canvases[i];
+        std::vector<std::string> layouts;
+        for (const std::optional<std::size_t>& layout : canvas.layouts)
+            layouts.push_back(layout ? called(configuration.layouts[*layout].name, *layout)
+                                     : "OFF");
+        text += fmt::format("  {}: layouts {}\n", called(canvas.name, i), joined(layouts));
+        for (std::size_t j = 0; j < canvas.segments.size(); ++j) {
+            const config::Segment& segment = canvas.segments[j];
+            const config::Viewport& at = segment.viewport;
+            text += fmt::format(
+                "    segment {}: {}, viewport [ {:.4g} {:.4g} {:.4g} {:.4g} ], eyes {}\n",
+                called(segment.name, j),
+                segment.channel ? pathOf(configuration, *segment.channel) : "no channel", at.x,
+                at.y, at.width, at.height, joined(words(segment.eyes)));
+        }
+    }
+    return text;
+}
+
 std::string display(const Checked& checked) {
     const Configuration& configuration = checked.configuration;
-    std::string text = "\nDestination channels\n";
+    std::string text = canvases(configuration) + "\nDestination channels\n";
     for (const config::Destination& each : checked.resolved.destinations) {
         const config::Canvas& canvas = configuration.canvases[each.index.canvas];
         const config::Layout& layout = configuration.layouts[each.index.layout];
@@ -107,6 +129,16 @@ std::string framesOf(const char* arrow, const std::vector<config::ResolvedFrame>
     return text;
 }
 
+std::string said(const config::Equalizer& equalizer) {
+    using Kind = config::EqualizerKind;
+    const std::string kind(word(equalizer.kind));
+    if (equalizer.kind == Kind::Load || equalizer.kind == Kind::Tree)
+        return fmt::format("{} {}", kind, word(equalizer.mode));
+    return equalizer.kind == Kind::Dfr
+               ? fmt::format("{} at {:.4g} frames/s", kind, equalizer.framerate)
+               : kind;
+}
+
 std::string compounds(const Checked& checked) {
     std::string text = "\nCompounds\n";
     for (const config::ResolvedCompound& compound : checked.resolved.compounds) {
@@ -120,7 +152,7 @@ std::string compounds(const Checked& checked) {
         text += framesOf("<-", compound.inputFrames) + framesOf("->", compound.outputFrames);
         if (compound.compound != nullptr)
             for (const config::Equalizer& equalizer : compound.compound->equalizers)
-                text += fmt::format(", {}", word(equalizer.kind));
+                text += ", " + said(equalizer);
         text += "\n";
         for (const config::EyeSight& sight : compound.sights)
             if (sight.sight) {

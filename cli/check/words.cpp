@@ -56,6 +56,21 @@ std::string_view word(config::EqualizerKind kind) {
     return "framerate_equalizer";
 }
 
+std::string_view word(config::SplitMode mode) {
+    using Mode = config::SplitMode;
+    switch (mode) {
+        case Mode::TwoD:
+            return "2D";
+        case Mode::Db:
+            return "DB";
+        case Mode::Horizontal:
+            return "HORIZONTAL";
+        case Mode::Vertical:
+            break;
+    }
+    return "VERTICAL";
+}
+
 std::string_view word(config::EyeSight::Eye eye) {
     using Eye = config::EyeSight::Eye;
     return eye == Eye::Cyclop ? "CYCLOP" : eye == Eye::Left ? "LEFT" : "RIGHT";

@@ -15,6 +15,7 @@ std::vector<std::string> words(const config::Tasks& tasks);
 std::vector<std::string> words(const config::Eyes& eyes);
 std::vector<std::string> words(const config::Buffers& buffers);
 std::string_view word(config::EqualizerKind kind);
+std::string_view word(config::SplitMode mode);
 std::string_view word(config::EyeSight::Eye eye);
 
 /// "name", or its position where it has none.

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/compound/seen.h"
 
-#include <limits>
-
-#include <glm/geometric.hpp>
-
 #include "coordinator/config/destinations.h"
+#include "coordinator/config/focus.h"
 #include "coordinator/config/pixels.h"
 #include "fabric/status.h"
 
@@ -84,34 +81,8 @@ Surroundings surroundingsOf(const config::Destination& destination,
 double focusRatio(const config::Configuration& configuration, const config::Display& display,
                   const config::ResolvedConfiguration& resolved,
                   const config::Destination& destination) {
-    const config::View& view = viewOf(configuration, destination);
-    const config::Observer* const observer = observerOf(configuration, view);
-    if (observer == nullptr || observer->focusMode == config::FocusMode::Fixed)
-        return 1;
-    const bool fromObserver = observer->focusMode == config::FocusMode::RelativeToObserver;
-    double nearest = std::numeric_limits<double>::infinity();
-    double ratio = 1;
-    for (const config::Destination& other : resolved.destinations) {
-        const bool isOfView = other.index.canvas == destination.index.canvas &&
-                              other.index.layout == destination.index.layout &&
-                              other.index.view == destination.index.view;
-        if (!isOfView || !other.panorama.wall)
-            continue;
-        // What is worn is where the head is, whose own coordinates it is in.
-        const Mat4 head = other.panorama.wall->movesWithHead ? Mat4(1.0) : headOf(view, display);
-        const Vec3 eye = moved(head, config::eyePlaces(configuration, view).cyclop);
-        const Vec3 from = fromObserver ? eye : Vec3(0, 0, 0);
-        const Vec3 ahead =
-            fromObserver ? glm::normalize(Vec3(head * Vec4(0, 0, -1, 0))) : Vec3(0, 0, -1);
-        const double distance = config::distanceAlong(*other.panorama.wall, from, ahead);
-        // Along the same direction, how far the eye is; it stays where it is while the wall moves.
-        const double ofEye = config::distanceAlong(*other.panorama.wall, eye, ahead);
-        if (!(distance > 0 && distance < nearest && ofEye > 0))
-            continue;
-        nearest = distance;
-        ratio = (observer->focusDistance - distance + ofEye) / ofEye;
-    }
-    return ratio > 0 ? ratio : 1;
+    return config::focusRatio(configuration, resolved.destinations, destination,
+                              headOf(viewOf(configuration, destination), display));
 }
 
 absl::StatusOr<std::optional<fabric::Sight>> seen(const config::Configuration& configuration,

@@ -21,8 +21,7 @@ struct Surroundings {
 Surroundings surroundingsOf(const config::Destination& destination,
                             const std::optional<config::Wall>& wall);
 
-/// The ratio by which an observer's focus moves the walls of a view away from the eyes: as the
-/// nearest of them asks. 1 where the focus is fixed.
+/// config::focusRatio() where heads are as `display` has them.
 double focusRatio(const config::Configuration& configuration, const config::Display& display,
                   const config::ResolvedConfiguration& resolved,
                   const config::Destination& destination);

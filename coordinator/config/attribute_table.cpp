@@ -186,6 +186,17 @@ const Known* knownOf(const Statement& statement, ValueReader& reader, std::strin
     return nullptr;
 }
 
+/// As Equalizer spells it, whatever the case of its letters; empty for none.
+std::string_view settingOf(std::string_view word) {
+    const auto exactly = std::ranges::find(kSettings, word);
+    const auto found = exactly != kSettings.end()
+                           ? exactly
+                           : std::ranges::find_if(kSettings, [&](std::string_view each) {
+                                 return lowered(each) == lowered(word);
+                             });
+    return found == kSettings.end() ? std::string_view() : *found;
+}
+
 /// ON, 24, CORE 1, …
 bool readSetting(const Statement& statement, ValueReader& reader, Attribute& attribute) {
     const std::vector<Scalar>& values = statement.values;
@@ -195,15 +206,22 @@ bool readSetting(const Statement& statement, ValueReader& reader, Attribute& att
         attribute.value = static_cast<std::int64_t>(std::clamp(values[0].number, -1e15, 1e15));
         return true;
     }
-    const bool isWord = isPlain && !values.empty() && values.size() <= 2 &&
-                        values[0].kind == Scalar::Kind::Word &&
-                        std::ranges::find(kSettings, values[0].text) != kSettings.end();
-    if (!isWord || (values.size() == 2 && values[1].kind != Scalar::Kind::Integer)) {
+    const bool isWord =
+        isPlain && !values.empty() && values.size() <= 2 && values[0].kind == Scalar::Kind::Word;
+    const std::string_view word = isWord ? settingOf(values[0].text) : "";
+    if (word.empty() || (values.size() == 2 && values[1].kind != Scalar::Kind::Integer)) {
         reader.expected(statement, "a whole number or a word such as ON, OFF, AUTO or FBO");
         return false;
     }
+    if (word != values[0].text)
+        reader.findings().warning(
+            statement.place,
+            fmt::format("'{}' is {}, which is read as {}: Equalizer itself knows it "
+                        "in that case alone",
+                        statement.keyword, values[0].text, word));
     Attribute::Words words;
     for (const Scalar& value : values) words.words.push_back(value.text);
+    words.words.front() = word;
     attribute.value = std::move(words);
     return true;
 }

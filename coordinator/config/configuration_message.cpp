@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/config/configuration_message.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
 
 #include "coordinator/config/eqc_reader.h"
 #include "coordinator/config/eqc_writer.h"
 #include "coordinator/config/message_to_statements.h"
+#include "coordinator/config/upgrade.h"
 #include "eyrie/v1/configuration.pb.h"
 #include "fabric/json_text.h"
 #include "wire/json_error.h"
@@ -49,7 +52,14 @@ Configuration readJson(std::string_view text, Findings& findings) {
                     wire::jsonError({status.message().data(), status.message().size()}).text()));
         return {};
     }
-    return fromMessage(message, findings);
+    Configuration configuration = fromMessage(message, findings);
+    if (findings.hasErrors())
+        return configuration;
+    // Its version is that of the text it was made of, which was brought to the newest then.
+    std::string version = std::exchange(configuration.version, std::string(kNewestVersion));
+    upgrade(configuration);
+    configuration.version = std::move(version);
+    return configuration;
 }
 
 }  // namespace eyrie::config

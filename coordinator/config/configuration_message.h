@@ -25,7 +25,8 @@ Configuration fromMessage(const v1::Configuration& message, Findings& findings);
 /// Protobuf JSON, indented, a list of numbers on one line.
 std::string writeJson(const Configuration& configuration);
 
-/// As fromMessage(). What is no JSON of a configuration, misspelt fields included, is one error.
+/// As fromMessage(), brought to what the newest version has: canvases where there are none, and an
+/// observer. What is no JSON of a configuration, misspelt fields included, is one error.
 Configuration readJson(std::string_view text, Findings& findings);
 
 }  // namespace eyrie::config

@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "coordinator/config/destinations.h"
+#include "coordinator/config/focus.h"
 #include "coordinator/config/idle_equalizers.h"
+#include "coordinator/config/overlaps.h"
 #include "coordinator/config/phases.h"
 #include "coordinator/config/pixels.h"
 #include "coordinator/config/queue_names.h"
@@ -91,6 +93,7 @@ public:
                 addImplicit(i);
         warnOfMissingPhases(resolved_, findings_);
         warnOfUnseen(configuration_, resolved_, findings_);
+        noteOverlaps(configuration_, resolved_, findings_);
         return std::move(resolved_);
     }
 
@@ -355,7 +358,20 @@ private:
         return false;
     }
 
-    /// Through the compound's part of the wall.
+    /// Of pixels that are drawn a few apart a picture shows the wall half a few beside the middle:
+    /// those of the wall's width and height.
+    static fabric::Vec2 shiftOf(const ResolvedCompound& own, const Destination& destination) {
+        const auto share = [](std::int64_t first, std::int64_t apart, double count) {
+            return count > 0 ? static_cast<double>(2 * first + 1 - apart) / (2 * count) : 0;
+        };
+        return {share(own.pixel.x, own.pixel.width,
+                      destination.pixelViewport.width * own.viewport.width),
+                share(own.pixel.y, own.pixel.height,
+                      destination.pixelViewport.height * own.viewport.height)};
+    }
+
+    /// Through the compound's part of the wall, where heads are in their places and as observers'
+    /// focus moves it.
     void addSights(ResolvedCompound& own) {
         if (!own.destination)
             return;
@@ -363,26 +379,44 @@ private:
         const std::optional<Wall>& wall = own.wall ? own.wall : destination.wall;
         if (!wall)
             return;
-        const Wall seen = config::part(*wall, own.viewport);
-        const EyePlaces places = eyePlaces(
-            configuration_,
-            configuration_.layouts[destination.index.layout].views[destination.index.view]);
+        const View& view =
+            configuration_.layouts[destination.index.layout].views[destination.index.view];
+        const EyePlaces places = eyePlaces(configuration_, view);
+        const Wall inFocus = scaled(
+            *wall, places.cyclop,
+            focusRatio(configuration_, resolved_.destinations, destination, fabric::Mat4(1.0)));
+        const fabric::Vec2 shift = shiftOf(own, destination);
+        const Wall seen =
+            config::part(config::part(inFocus, own.viewport), {shift.x, shift.y, 1, 1});
         using Eye = EyeSight::Eye;
         const auto add = [&](bool isShown, Eye eye, const char* name, const fabric::Vec3& place) {
             if (!isShown)
                 return;
             own.sights.push_back({eye, sightThrough(seen, place)});
-            if (!own.sights.back().sight)
-                findings_.error(
-                    own.compound != nullptr ? own.place() : placeOf(destination),
-                    fmt::format("the eye {} is not before the wall that it looks through; where "
-                                "the wall shows its back, exchange its bottom and top, or its "
-                                "left and right",
-                                name));
+            if (own.sights.back().sight)
+                return;
+            const Place& said = own.compound != nullptr ? own.place() : placeOf(destination);
+            const std::string blind =
+                fmt::format("the eye {} is not before the wall that it looks through", name);
+            if (isTracked(view))
+                findings_.warning(said, blind + ": it sees nothing until its head is moved there");
+            else
+                findings_.error(said, blind +
+                                          "; where the wall shows its back, exchange its "
+                                          "bottom and top, or its left and right");
         };
         add(own.eyes.cyclop, Eye::Cyclop, "CYCLOP", places.cyclop);
         add(own.eyes.left, Eye::Left, "LEFT", places.left);
         add(own.eyes.right, Eye::Right, "RIGHT", places.right);
+    }
+
+    /// Whether its observer is where a tracker says, not where the file has it.
+    bool isTracked(const View& view) const {
+        if (!view.observer)
+            return false;
+        const Observer& observer = configuration_.observers[*view.observer];
+        return !observer.vrpnTracker.empty() ||
+               (!observer.openCvCamera.empty() && observer.openCvCamera != "OFF");
     }
 
     const Place& placeOf(const Destination& shown) const {

@@ -48,13 +48,12 @@ CanvasBarriers swapBarriers(const Configuration& configuration, std::size_t canv
                             const std::optional<std::size_t>& layout) {
     const Canvas& shown = configuration.canvases[canvas];
     CanvasBarriers barriers;
+    const std::string unnamed = fmt::format("canvas {}", canvas);
     if (shown.swapBarrier)
-        barriers.whole = nameOf(*shown.swapBarrier, fmt::format("canvas {}", canvas));
-    for (std::size_t i = 0; i < shown.segments.size(); ++i) {
-        const auto& own = shown.segments[i].swapBarrier;
-        barriers.segments.push_back(own ? nameOf(*own, fmt::format("segment {}.{}", canvas, i))
-                                        : barriers.whole);
-    }
+        barriers.whole = nameOf(*shown.swapBarrier, unnamed);
+    for (const Segment& segment : shown.segments)
+        barriers.segments.push_back(segment.swapBarrier ? nameOf(*segment.swapBarrier, unnamed)
+                                                        : barriers.whole);
     CompoundWalk(canvas, layout, barriers.segments).visitRoots(configuration.compounds);
     const bool areShared =
         std::ranges::adjacent_find(barriers.segments, std::ranges::not_equal_to()) ==

@@ -20,9 +20,9 @@ struct CanvasBarriers {
 
 /// A segment has the barrier that it names, else its canvas's, else that of the compound that makes
 /// its picture in `layout`, or of the nearest above that one. The whole canvas has its own, else
-/// the one that all its segments share. What has no name is one of its own for each canvas or
-/// segment that has it, and one for all compounds of a root (as Equalizer has it,
-/// `eq::server::Compound::setSwapBarrier`): `swapbarrier {}` in each screen of a wall joins them.
+/// the one that all its segments share. What has no name is one for a canvas and its segments, and
+/// one for all compounds of a root (as Equalizer has it, `eq::server::Compound::setSwapBarrier`):
+/// `swapbarrier {}` in each screen of a wall joins them.
 CanvasBarriers swapBarriers(const Configuration& configuration, std::size_t canvas,
                             const std::optional<std::size_t>& layout);
 

@@ -170,6 +170,20 @@ TEST(EqcErrors, AreEyesThatAreNotBeforeTheirWall) {
                               "its back, exchange its bottom and top, or its left and right"));
 }
 
+/// A room whose origin is on its floor, say: the head is elsewhere.
+TEST(EqcErrors, AreNotEyesThatATrackerMoves) {
+    const Read read(
+        "config { appNode { pipe { window { channel { name \"a\" } } } }"
+        " observer { eye_cyclop [ 0 0 -2 ] vrpn_tracker \"head\" }"
+        " layout { view { observer 0 } }"
+        " canvas { layout 0 wall {} segment { channel \"a\" } } }");
+    EXPECT_FALSE(read.findings.hasErrors());
+    EXPECT_THAT(
+        describe(read.findings, "f"),
+        HasSubstr("warning: the eye CYCLOP is not before the wall that it looks through: it "
+                  "sees nothing until its head is moved there"));
+}
+
 TEST(EqcErrors, AreMoreStatementsThanAnyFileHas) {
     std::string nodes;
     for (std::size_t i = 0; i <= kMostStatements; ++i) nodes += "node{}";

@@ -13,6 +13,7 @@
 #include "coordinator/config/eqc_writer.h"
 #include "coordinator/config/resolved.h"
 #include "coordinator/config/state_message.h"
+#include "coordinator/config/upgrade.h"
 #include "eyrie/v1/configuration.pb.h"
 #include "tests/coordinator/random_configuration.h"
 
@@ -54,12 +55,37 @@ RC_GTEST_PROP(ConfigurationForms, LoseNothingOfAnyConfigurationAsMessageJsonAndT
     const Configuration read = fromMessage(toMessage(configuration), findings);
     RC_LOG() << "as text:\n" << writeEqc(configuration) << "read:\n" << writeEqc(read);
     RC_ASSERT(read == configuration);
-    const std::string json = writeJson(configuration);
-    RC_ASSERT(readJson(json, findings) == configuration);
-    RC_ASSERT(writeJson(readJson(json, findings)) == json);
     RC_ASSERT(readStatements(parseEqc(writeEqc(configuration), findings), findings) ==
               configuration);
+    Configuration newest = configuration;
+    newest.version = kNewestVersion;
+    upgrade(newest);
+    const std::string json = writeJson(newest);
+    RC_ASSERT(readJson(json, findings) == newest);
+    RC_ASSERT(writeJson(readJson(json, findings)) == json);
+    RC_ASSERT(readEqc(writeEqc(newest), findings) == newest);
     RC_ASSERT(!findings.hasErrors());
+}
+
+/// As conversions of files have them that were of 1.0, and were edited since.
+TEST(ConfigurationForms, OfJsonMeanWhatTheirTextMeans) {
+    for (
+        const char* const json :
+        {R"({"version": "1.0", "nodes": [{"pipes": [{"windows": [{"channels": [{"name": "a"}]}]}]}],
+              "layouts": [{"views": [{"mode": "VIEW_MODE_MONO"}]}],
+              "canvases": [{"layouts": [{"index": 0}], "segments": [{"channel": {"name": "a"}}]}],
+              "compounds": [{"channel": {"destination": {}}, "eyes": {"left": true, "right": true}}]})",
+         R"({"nodes": [{"pipes": [{"windows": [{"channels": [{"name": "a"}]}]}]}],
+              "compounds": [{"channel": {"name": "a"}}]})"}) {
+        Findings findings;
+        Configuration read = readJson(json, findings);
+        ASSERT_FALSE(findings.hasErrors()) << describe(findings, "f");
+        EXPECT_EQ(read.observers.size(), 1U);
+        EXPECT_EQ(read.canvases.size(), 1U);
+        EXPECT_FALSE(read.layouts.at(0).views.at(0).isStereo);
+        read.version = kNewestVersion;
+        EXPECT_EQ(readEqc(writeEqc(read), findings), read);
+    }
 }
 
 TEST(ConfigurationForms, OfEveryFileOfEqualizersAreReadAsTheFile) {

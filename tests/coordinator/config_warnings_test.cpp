@@ -209,6 +209,36 @@ TEST(EqcWarnings, ProposeTheSettingThatIsNearlyOneThatIsNone) {
               "f:2:49: warning: 'colour' is no setting here and is left out\n");
 }
 
+/// As older files have them.
+TEST(EqcWarnings, SayHowWordsOfSettingsAreReadWhateverTheirCase) {
+    const Read read("config { appNode { pipe { window { attributes { hint_fullscreen on } } } } }");
+    EXPECT_FALSE(read.findings.hasErrors());
+    EXPECT_THAT(describe(read.findings, "f"),
+                HasSubstr("f:1:49: warning: 'hint_fullscreen' is on, which is read as ON"));
+    EXPECT_EQ(std::get<Attribute::Words>(
+                  read.configuration.nodes.at(0).pipes[0].windows[0].attributes.at(0).value)
+                  .words,
+              std::vector<std::string>{"ON"});
+    EXPECT_THAT(firstError("config { appNode { pipe { window { attributes { hint_fullscreen yes }"
+                           " } } } }"),
+                HasSubstr("expected a whole number or a word such as ON"));
+}
+
+TEST(EqcWarnings, NoteSegmentsThatLieOverOthers) {
+    const auto found = [](const std::string& left, const std::string& right) {
+        return describe(Read("config { appNode { pipe { window { channel { name \"a\" }"
+                             " channel { name \"b\" } } } } layout { view { mode STEREO } }"
+                             " canvas { layout 0 wall {} segment { channel \"a\" " +
+                             left + " } segment { channel \"b\" " + right + " } } }")
+                            .findings,
+                        "f");
+    };
+    EXPECT_THAT(found("", ""), HasSubstr("note: another segment of the canvas lies over it"));
+    EXPECT_THAT(found("viewport [ 0 0 .6 1 ]", "viewport [ .5 0 .5 1 ]"), HasSubstr("lies over"));
+    EXPECT_EQ(found("viewport [ 0 0 .5 1 ]", "viewport [ .5 0 .5 1 ]"), "");
+    EXPECT_EQ(found("eye [ LEFT ]", "eye [ RIGHT ]"), "") << "never in one picture";
+}
+
 TEST(EqcWarnings, NameFramesThatTheTasksLeaveOut) {
     const auto found = [](const std::string& ofWhole, const std::string& ofPart) {
         return describe(

@@ -77,6 +77,15 @@ TEST(Plan, SwapBarriersWithoutANameJoinTheScreensOfARoot) {
               (config::CanvasBarriers{"", {"compound 0", "compound 0", "compound 1", ""}}));
 }
 
+TEST(Plan, SwapBarriersWithoutANameJoinTheSegmentsOfACanvas) {
+    const config::Configuration configuration = room(
+        "layout { view { } } canvas { layout 0 "
+        "segment { channel \"a\" swapbarrier { } } segment { channel \"b\" swapbarrier { } } "
+        "segment { channel \"c\" } }");
+    EXPECT_EQ(config::swapBarriers(configuration, 0, 0),
+              (config::CanvasBarriers{"", {"canvas 0", "canvas 0", ""}}));
+}
+
 TEST(Plan, BandsAreDrawnOfWhatTheyShowOnly) {
     PlanRequest request = canvasOf(1280, 480);
     request.outputs[0].part = fabric::PixelViewport{0, 100, 700, 50};

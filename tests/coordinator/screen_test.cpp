@@ -147,6 +147,19 @@ fabric::Vec3 eyeByTheBook(const Configuration& configuration, const DestinationI
     return observer.eyeCyclop.value_or(fabric::Vec3(0, 0, 0));
 }
 
+/// Of every n-th column from the k-th on, k + 1/2 - n/2 columns beside the part; rows alike.
+Viewport shifted(const ResolvedCompound& compound, const std::vector<Destination>& destinations) {
+    const fabric::PixelViewport& pixels = destinations[*compound.destination].pixelViewport;
+    const auto share = [](std::int64_t first, std::int64_t apart, std::int32_t count) {
+        return static_cast<double>(2 * first + 1 - apart) / (2.0 * count);
+    };
+    const PixelShare& drawn = compound.pixel;
+    Viewport part = compound.viewport;
+    part.x += share(drawn.x, drawn.width, pixels.width);
+    part.y += share(drawn.y, drawn.height, pixels.height);
+    return part;
+}
+
 TEST(Screen, OfEveryFileOfEqualizersIsWhatTheFormulasSay) {
     std::size_t sights = 0;
     std::size_t ofProjections = 0;
@@ -166,7 +179,8 @@ TEST(Screen, OfEveryFileOfEqualizersIsWhatTheFormulasSay) {
                 const fabric::Frustum whole = slice(byTheBook(plane, eye), part);
                 SCOPED_TRACE(name + ", line " + std::to_string(compound.place().line));
                 ASSERT_TRUE(seen.sight);
-                expectNear(seen.sight->frustum, slice(whole, compound.viewport));
+                expectNear(seen.sight->frustum,
+                           slice(whole, shifted(compound, read.resolved.destinations)));
                 for (const fabric::Vec3& point : {fabric::Vec3(1, 2, -3), fabric::Vec3(-4, 0, 1)}) {
                     const fabric::Vec3 expected = plane.onPlane(point) - plane.onPlane(eye);
                     const fabric::Vec4 got =
@@ -179,6 +193,60 @@ TEST(Screen, OfEveryFileOfEqualizersIsWhatTheFormulasSay) {
     }
     EXPECT_EQ(sights, 344U);
     EXPECT_EQ(ofProjections, 12U) << "those of 3-window.curved.eqc";
+}
+
+/// A window of 200 x 100 pixels onto a wall 1.6 m wide, 1 m ahead.
+Read wallWith(const std::string& observer, const std::string& compounds) {
+    return Read(
+        "config { appNode { pipe { window { viewport [ 0 0 200 100 ]"
+        " channel { name \"a\" } channel { name \"b\" } } } } observer { " +
+        observer +
+        " } layout { view { observer 0 mode STEREO } } canvas { layout 0 wall {"
+        " bottom_left [ -.8 -.5 -1 ] bottom_right [ .8 -.5 -1 ] top_left [ -.8 .5 -1 ] }"
+        " segment { channel \"a\" } } " +
+        compounds + " }");
+}
+
+/// At the focus, 3 m ahead, and as wide an angle: the eyes see it 25 mm from the middle.
+TEST(Screen, IsWhereTheObserversFocusMovesIt) {
+    const Read read =
+        wallWith("eye_base .05 focus_distance 3 focus_mode relative_to_observer",
+                 "compound { channel ( canvas 0 segment 0 layout 0 view 0 ) eye [ LEFT RIGHT ] }");
+    const auto& sights = read.resolved.compounds.at(0).sights;
+    ASSERT_EQ(sights.size(), 2U);
+    for (const EyeSight& each : sights) {
+        const double eye = each.eye == EyeSight::Eye::Left ? -.025 : .025;
+        ASSERT_TRUE(each.sight);
+        EXPECT_NEAR(each.sight->frustum.left, (-2.4 - eye) / 3, 1e-12);
+        EXPECT_NEAR(each.sight->frustum.right, (2.4 - eye) / 3, 1e-12);
+        EXPECT_NEAR(each.sight->frustum.top, .5, 1e-12);
+    }
+}
+
+/// Each of two shares has the middles of its own columns, half a column of 8 mm beside those of
+/// pixels twice as wide.
+TEST(Screen, IsShiftedByWhichPixelsAreDrawn) {
+    const Read read = wallWith("eye_base 0",
+                               "compound { channel ( canvas 0 segment 0 layout 0 view 0 )"
+                               " compound { pixel [ 0 0 2 1 ] outputframe { name \"x\" } }"
+                               " compound { channel \"b\" pixel [ 1 0 2 1 ]"
+                               " outputframe { name \"y\" } }"
+                               " inputframe { name \"x\" } inputframe { name \"y\" } }");
+    const auto frustumOf = [&](std::size_t compound) {
+        return read.resolved.compounds.at(compound).sights.at(0).sight->frustum;
+    };
+    EXPECT_NEAR(frustumOf(1).left, -.804, 1e-12);
+    EXPECT_NEAR(frustumOf(1).right, .796, 1e-12);
+    EXPECT_NEAR(frustumOf(2).left, -.796, 1e-12);
+    EXPECT_NEAR(frustumOf(2).right, .804, 1e-12);
+    EXPECT_NEAR(frustumOf(2).bottom, -.5, 1e-12);
+    const Read zoomed = wallWith("eye_base 0",
+                                 "compound { channel ( canvas 0 segment 0 layout 0 view 0 )"
+                                 " zoom [ .5 1 ] outputframe { name \"whole\" }"
+                                 " compound { pixel [ 0 0 2 1 ] outputframe { name \"x\" } }"
+                                 " inputframe { name \"x\" } inputframe { name \"whole\" } }");
+    EXPECT_NEAR(zoomed.resolved.compounds.at(1).sights.at(0).sight->frustum.left, -.808, 1e-12)
+        << "of columns twice as wide";
 }
 
 TEST(Screen, PutsEveryPointOfTheWallWhereTheEyeSeesIt) {
