@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <mutex>
 #include <numeric>
 #include <stop_token>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -86,15 +84,22 @@ absl::Status append(TriangleMesh& whole, TriangleMesh part, const std::string& p
     return absl::OkStatus();
 }
 
+template <typename T>
+std::uint64_t bytesOf(const std::vector<T>& values) {
+    return values.size() * sizeof(T);
+}
+
+/// What a mesh takes here, without its images.
+std::uint64_t bytesOf(const TriangleMesh& mesh) {
+    return bytesOf(mesh.positions) + bytesOf(mesh.triangles) + bytesOf(mesh.normals) +
+           bytesOf(mesh.colours) + bytesOf(mesh.textureCoordinates) + bytesOf(mesh.materialOf);
+}
+
 /// How many may be read at a time: none needs more than the largest may.
 std::size_t filesAtOnce(std::span<const std::string> paths, std::uint64_t memoryBytes) {
     const auto cores = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
     std::uint64_t largest = 0;
-    for (const std::string& path : paths) {
-        std::error_code none;
-        if (const auto bytes = std::filesystem::file_size(path, none); !none)
-            largest = std::max<std::uint64_t>(largest, bytes);
-    }
+    for (const std::string& path : paths) largest = std::max(largest, bytesToRead(path));
     const std::uint64_t room =
         memoryBytes == 0 ? cores : memoryBytes / ReadingLimits::forFile(largest).memoryBytes;
     return std::max<std::size_t>(1, std::min(cores, room));
@@ -117,6 +122,7 @@ private:
 
     ImportControl controlOf(std::size_t file);
     void report(std::string_view stage, std::size_t file, double fraction);
+    absl::Status checkRoom(const TriangleMesh& part, const std::string& path) const;
     void add(Part& part);
 
     const std::span<const std::string> paths_;
@@ -142,11 +148,26 @@ void Joining::report(std::string_view stage, std::size_t file, double fraction) 
     control_.report(stage, sum / static_cast<double>(shares_.size()));
 }
 
+absl::Status Joining::checkRoom(const TriangleMesh& part, const std::string& path) const {
+    const std::uint64_t most = reading_.memoryBytes;
+    if (most == 0 || bytesOf(whole_) + bytesOf(part) <= most)
+        return absl::OkStatus();
+    return absl::ResourceExhaustedError(fmt::format(
+        "{}: with it the files take more than the {} MiB of memory that the import may use; import "
+        "fewer at once, bring all of them to PLY of triangles, which is imported part by part, or "
+        "allow more memory",
+        path, most >> 20));
+}
+
 void Joining::add(Part& part) {
     if (!status_.ok())
         return;
-    status_ = part.mesh.ok() ? append(whole_, *std::move(part.mesh), paths_[part.file])
-                             : part.mesh.status();
+    const std::string& path = paths_[part.file];
+    status_ = part.mesh.status();
+    if (status_.ok())
+        status_ = checkRoom(*part.mesh, path);
+    if (status_.ok())
+        status_ = append(whole_, *std::move(part.mesh), path);
     if (!status_.ok())
         stop_.request_stop();
 }

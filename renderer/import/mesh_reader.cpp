@@ -132,10 +132,10 @@ absl::Status addCompanions(const std::string& path, const std::string& source,
 absl::StatusOr<TriangleMesh> parseMesh(std::string_view text, const std::string& path,
                                        const ImportControl& control, std::uint64_t memoryBytes) {
     if (looksLikePly(text) || endsWith(path, ".ply"))
-        return parsePly(text, path, control);
+        return parsePly(text, path, control, memoryBytes);
     if (looksLikeJdn(text) || endsWith(path, ".jdn"))
         return parseJdn(text, path, control, memoryBytes);
-    return readWithAssimp(path, ReadingLimits::forFile(text.size(), memoryBytes), control);
+    return readWithAssimp(path, ReadingLimits::forFile(bytesToRead(path), memoryBytes), control);
 }
 
 absl::StatusOr<TriangleMesh> readAsItIs(const std::string& path, const ImportControl& control,
@@ -192,6 +192,23 @@ absl::StatusOr<std::vector<std::string>> companionsOf(const std::string& path) {
     std::vector<std::string> found;
     RETURN_IF_ERROR(addCompanions(path, path, found));
     return found;
+}
+
+std::uint64_t bytesToRead(const std::string& path) {
+    std::uint64_t sum = 0;
+    const auto add = [&sum](const std::string& file) {
+        std::error_code ignored;
+        const std::uintmax_t bytes = fs::file_size(file, ignored);
+        sum += ignored ? 0 : bytes;
+    };
+    add(path);
+    if (!endsWith(path, ".gltf"))
+        return sum;  // what others name are images and materials, which are read on their own
+    if (const auto companions = companionsOf(path); companions.ok())
+        for (const std::string& companion : *companions)
+            if (!isImageName(companion))
+                add(companion);
+    return sum;
 }
 
 absl::StatusOr<std::uint64_t> meshSourceHash(std::span<const std::string> paths) {

@@ -26,8 +26,9 @@ std::string meshSourceEndings();
 
 struct MeshReading {
     bool onlyNormalsOfEdges = false;  ///< files that are not of statesEdges() have none then
-    /// That Assimp may take in its process, textures in theirs, or reading .jdn here; 0: what sound
-    /// files need. PLY takes a constant times the file's size, which its header tells (measurePly).
+    /// That Assimp may take in its process, textures in theirs, reading .jdn or the polygons of a
+    /// PLY here, or the meshes of several files together; 0: what sound files need. Of triangles
+    /// PLY takes a constant times the file's size, which its header tells (measurePly).
     std::uint64_t memoryBytes = 0;
 };
 
@@ -46,6 +47,9 @@ inline constexpr fabric::Rgba kPlainColour{204, 204, 204, 255};
 /// The buffers, material files and textures that a file of OBJ, glTF, AC3D, PLY or .jdn names, as
 /// far as they exist. Errors: NotFound, PermissionDenied, InvalidArgument (a folder), Unavailable.
 absl::StatusOr<std::vector<std::string>> companionsOf(const std::string& path);
+
+/// What the reader of a source's format reads: the source and, of glTF, its buffers.
+std::uint64_t bytesToRead(const std::string& path);
 
 /// Of the bytes of all files that a mesh is read from: `paths`, and companionsOf these. One file
 /// without such company has the hash of its own bytes (mesh::contentHash). Errors: as above.

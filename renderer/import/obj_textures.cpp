@@ -131,6 +131,8 @@ std::vector<std::string> texturesOfMtl(std::string_view mtl) {
             names.push_back(parseMapKd(line).name);
     }
     std::ranges::sort(names);
+    const auto again = std::ranges::unique(names);
+    names.erase(again.begin(), again.end());
     return names;
 }
 

@@ -19,6 +19,20 @@ using Corners = std::array<std::uint32_t, 3>;
 }  // namespace
 
 template <typename Values>
+absl::Status PlyFaces<Values>::addPolygon(std::uint64_t face, std::uint64_t corners) {
+    // A corner's index, the triangle that it makes, and as much again while arrays grow.
+    constexpr std::uint64_t kCornerBytes = 2 * (sizeof(std::uint32_t) + sizeof(Corners));
+    if (memoryBytes_ != 0 && polygonCorners_.size() + corners > memoryBytes_ / kCornerBytes)
+        return absl::ResourceExhaustedError(fmt::format(
+            "face {}: with it the polygons take more than the {} MiB of memory that the import may "
+            "use; triangulate it before export, so that it is imported part by part, or allow more "
+            "memory",
+            face, memoryBytes_ >> 20));
+    polygons_.push_back({face, polygonCorners_.size(), corners});
+    return absl::OkStatus();
+}
+
+template <typename Values>
 absl::Status PlyFaces<Values>::readFace(const PlyProperty& property, std::uint64_t index,
                                         std::uint64_t count) {
     if (count < 3) {
@@ -33,7 +47,7 @@ absl::Status PlyFaces<Values>::readFace(const PlyProperty& property, std::uint64
                            "triangles of a mesh that does not fit the memory it may have",
                            "triangulate it before export, or allow more memory");
     if (count > 3)
-        polygons_.push_back({index, polygonCorners_.size(), count});
+        RETURN_IF_ERROR(addPolygon(index, count));
     for (std::uint64_t i = 0; i < count; ++i) {
         std::int64_t corner = 0;
         if (!body_.values.integer(property.type, corner))

@@ -19,9 +19,14 @@ namespace eyrie::import {
 template <typename Values>
 class PlyFaces {
 public:
-    /// Both outlive this.
-    PlyFaces(PlyBody<Values>& body, const TextureLayout& layout, bool isTextured)
-        : body_(body), layout_(layout), textures_(layout), isTextured_(isTextured) {}
+    /// Both outlive this. `memoryBytes`: that polygons may take; 0: any.
+    PlyFaces(PlyBody<Values>& body, const TextureLayout& layout, bool isTextured,
+             std::uint64_t memoryBytes)
+        : body_(body),
+          layout_(layout),
+          textures_(layout),
+          isTextured_(isTextured),
+          memoryBytes_(memoryBytes) {}
 
     /// Of the element that the body is at, "face" or "tristrips".
     absl::Status read();
@@ -45,6 +50,7 @@ private:
 
     absl::Status readList(const PlyProperty& property, std::uint64_t index);
     absl::Status readFace(const PlyProperty& property, std::uint64_t index, std::uint64_t count);
+    absl::Status addPolygon(std::uint64_t face, std::uint64_t corners);
     absl::Status readStrip(const PlyProperty& property, std::uint64_t index, std::uint64_t count);
     void extend(Strip& strip, std::uint32_t corner);
     absl::Status readTexturedFaces();
@@ -56,6 +62,7 @@ private:
     const TextureLayout& layout_;
     PlyTextures textures_;
     bool isTextured_;
+    std::uint64_t memoryBytes_;
     std::vector<Polygon> polygons_;
     std::vector<std::uint32_t> polygonCorners_;
     std::vector<double> places_;  ///< of the face being read

@@ -25,12 +25,12 @@ template <typename Values>
 class BodyReader {
 public:
     BodyReader(const PlyHeader& header, std::string_view body, const ImportControl& control,
-               const TakeUpTo& take)
+               const TakeUpTo& take, std::uint64_t memoryBytes)
         : layout_(header),
           isTextured_(layout_.isUsed() && !take),
           body_(header, body, control, take),
           vertices_(body_, isTextured_ && layout_.ofFaces == nullptr),
-          faces_(body_, layout_, isTextured_) {
+          faces_(body_, layout_, isTextured_, memoryBytes) {
         body_.mesh.notes = notesOf(header, isTextured_);
     }
 
@@ -97,17 +97,20 @@ absl::StatusOr<TriangleMesh> BodyReader<Values>::read(const std::string& path) {
 }
 
 absl::StatusOr<TriangleMesh> parse(std::string_view file, const std::string& path,
-                                   const ImportControl& control, const TakeUpTo& take = {}) {
+                                   const ImportControl& control, const TakeUpTo& take,
+                                   std::uint64_t memoryBytes) {
     ASSIGN_OR_RETURN(const PlyHeader header, parsePlyHeader(file));
     RETURN_IF_ERROR(checkIsMesh(header));
     const std::string_view body = file.substr(header.bodyOffset);
     switch (header.encoding) {
         case PlyEncoding::Ascii:
-            return BodyReader<AsciiValues>(header, body, control, take).read(path);
+            return BodyReader<AsciiValues>(header, body, control, take, memoryBytes).read(path);
         case PlyEncoding::LittleEndian:
-            return BodyReader<BinaryValues<false>>(header, body, control, take).read(path);
+            return BodyReader<BinaryValues<false>>(header, body, control, take, memoryBytes)
+                .read(path);
         case PlyEncoding::BigEndian:
-            return BodyReader<BinaryValues<true>>(header, body, control, take).read(path);
+            return BodyReader<BinaryValues<true>>(header, body, control, take, memoryBytes)
+                .read(path);
     }
     return absl::InternalError("unknown PLY encoding");
 }
@@ -120,8 +123,8 @@ std::string_view textOf(const mesh::MappedFile& file) {
 }  // namespace
 
 absl::StatusOr<TriangleMesh> parsePly(std::string_view file, const std::string& name,
-                                      const ImportControl& control) {
-    absl::StatusOr<TriangleMesh> mesh = parse(file, name, control);
+                                      const ImportControl& control, std::uint64_t memoryBytes) {
+    absl::StatusOr<TriangleMesh> mesh = parse(file, name, control, {}, memoryBytes);
     return mesh.ok() ? std::move(mesh) : fabric::withContext(mesh.status(), name);
 }
 
@@ -133,7 +136,7 @@ absl::Status readPlyPieces(const std::string& path, const TakePiece& take,
         file.forget(offset);  // the header before the body keeps this on the safe side
         return take(piece);
     };
-    return fabric::withContext(parse(text, path, control, takeUpTo).status(), path);
+    return fabric::withContext(parse(text, path, control, takeUpTo, 0).status(), path);
 }
 
 absl::StatusOr<PlySize> measurePly(const std::string& path) {

@@ -59,8 +59,10 @@ absl::StatusOr<PlySize> measurePly(const std::string& path);
 /// The files of images that PLY text at `path` names; none where its header is damaged.
 std::vector<std::string> texturesOfPly(std::string_view file, const std::string& path);
 
-/// The same as readPly from memory. `name` stands for the file, in messages too.
+/// The same as readPly from memory. `name` stands for the file, in messages too. Where
+/// `memoryBytes` is not 0 what polygons take ends there: ResourceExhausted.
 absl::StatusOr<TriangleMesh> parsePly(std::string_view file, const std::string& name,
-                                      const ImportControl& control = {});
+                                      const ImportControl& control = {},
+                                      std::uint64_t memoryBytes = 0);
 
 }  // namespace eyrie::import

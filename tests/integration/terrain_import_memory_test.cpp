@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "tests/support/nginx.h"
+#include "tests/support/peak_memory.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -39,21 +39,10 @@ protected:
 };
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // those take their own
-/// Runs a program to its end; its greatest resident memory in bytes, -1 when it failed.
+/// In bytes; -1 when the program failed.
 std::int64_t peakBytes(const Words& command) {
-    const pid_t child = fork();
-    if (child == 0) {
-        std::vector<char*> words;
-        for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
-        words.push_back(nullptr);
-        execv(words[0], words.data());
-        _exit(127);
-    }
-    int status = 0;
-    rusage usage{};
-    if (wait4(child, &status, 0, &usage) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
-        return -1;
-    return std::int64_t{usage.ru_maxrss} * 1024;
+    const test::Peak peak = test::peakOf(command);
+    return peak.status == 0 ? peak.bytes : -1;
 }
 
 TEST_F(TerrainImportProcess, StaysWithinItsMemory) {
