@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include <grpcpp/server_context.h>
+
 #include "fabric/status.h"
 #include "wire/picture_header.h"
 #include "wire/status.h"
@@ -36,9 +38,10 @@ absl::Status FrameReceiver::begin(const v1::FrameHeader& header) {
     RETURN_IF_ERROR(mailbox_.checkAddress(header.to()));
     ASSIGN_OR_RETURN(const wire::AnnouncedPicture picture,
                      wire::announcedPicture(header, kAnywhere, false));
-    ASSIGN_OR_RETURN(Mailbox::Arrival arrival,
-                     mailbox_.admit({header.session(), header.frame_number(), header.frame()},
-                                    picture.area, picture.hasDepth));
+    ASSIGN_OR_RETURN(
+        Mailbox::Arrival arrival,
+        mailbox_.admit({header.session(), header.frame_number(), header.frame()}, picture.area,
+                       picture.hasDepth, [this] { context_.TryCancel(); }));
     arrival_.emplace(std::move(arrival));
     image_ = picture.blank();
     pixels_.emplace(image_, picture.encoding);

@@ -15,8 +15,11 @@ namespace eyrie::service {
 /// admitted it. Owns itself, as gRPC's reactors do.
 class FrameReceiver final : public grpc::ServerReadReactor<v1::PutFrameRequest> {
 public:
-    /// `mailbox` outlives the call.
-    explicit FrameReceiver(Mailbox& mailbox) : mailbox_(mailbox) { StartRead(&message_); }
+    /// `mailbox` outlives the call, of which `context` is.
+    FrameReceiver(Mailbox& mailbox, grpc::CallbackServerContext& context)
+        : mailbox_(mailbox), context_(context) {
+        StartRead(&message_);
+    }
 
     void OnReadDone(bool ok) override;
     void OnDone() override { delete this; }
@@ -27,6 +30,7 @@ private:
     absl::Status end();
 
     Mailbox& mailbox_;
+    grpc::CallbackServerContext& context_;
     v1::PutFrameRequest message_;
     std::optional<Mailbox::Arrival> arrival_;  ///< once there is a header
     fabric::Image image_;

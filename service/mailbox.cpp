@@ -22,8 +22,9 @@ std::string describe(const FrameKey& key) {
 
 Mailbox::Arrival::~Arrival() {
     if (mailbox_ != nullptr)
-        mailbox_->arrive(*this, absl::UnavailableError(fmt::format(
-                                    "{} broke off: its sender went away", describe(key_))));
+        mailbox_->arrive(
+            *this, absl::UnavailableError(fmt::format(
+                       "{} broke off: its sender went away, or took too long", describe(key_))));
 }
 
 void Mailbox::Arrival::complete(fabric::Image image) {
@@ -94,7 +95,8 @@ absl::StatusOr<fabric::Image> Mailbox::await(const FrameKey& key, Clock::time_po
 }
 
 absl::StatusOr<Mailbox::Arrival> Mailbox::admit(const FrameKey& key,
-                                                const fabric::PixelViewport& area, bool hasDepth) {
+                                                const fabric::PixelViewport& area, bool hasDepth,
+                                                std::function<void()> breakOff) {
     const std::lock_guard lock(mutex_);
     const auto known = slots_.find(key);
     if (known != slots_.end() && known->second.area)
@@ -110,6 +112,7 @@ absl::StatusOr<Mailbox::Arrival> Mailbox::admit(const FrameKey& key,
     slot.since = Clock::now();
     if (!slot.announced)
         ++unannounced_;
+    arriving_[arrivals_] = {slot.since, std::move(breakOff)};
     slots_.insert_or_assign(key, std::move(slot));
     changed_.notify_all();
     return Arrival(*this, key, bytes, arrivals_);
@@ -149,6 +152,7 @@ absl::Status Mailbox::checkRoom(const Slot& slot, std::uint64_t bytes) const {
 void Mailbox::arrive(const Arrival& arrival, absl::StatusOr<fabric::Image> image) {
     {
         const std::lock_guard lock(mutex_);
+        arriving_.erase(arrival.number_);
         const auto found = slots_.find(arrival.key_);
         const bool isAwaited = found != slots_.end() && found->second.arrival == arrival.number_;
         if (!isAwaited || !image.ok())
@@ -166,22 +170,34 @@ void Mailbox::erase(Slots::iterator slot) {
     slots_.erase(slot);
 }
 
+void Mailbox::dropUnannounced(Clock::time_point now) {
+    for (auto slot = slots_.begin(); slot != slots_.end();) {
+        const auto next = std::next(slot);
+        if (!slot->second.announced && slot->second.since <= now - limits_.unannounced) {
+            --unannounced_;
+            erase(slot);
+        }
+        slot = next;
+    }
+}
+
+void Mailbox::breakOffStalled(Clock::time_point now) {
+    for (auto& [number, arriving] : arriving_)
+        if (arriving.breakOff && arriving.since <= now - limits_.arriving)
+            std::exchange(arriving.breakOff, nullptr)();
+}
+
 void Mailbox::sweep(const std::stop_token& stop) {
+    const auto isIdle = [this] { return unannounced_ == 0 && arriving_.empty(); };
     std::unique_lock lock(mutex_);
     while (!stop.stop_requested()) {
-        if (unannounced_ == 0)
-            changed_.wait(lock, stop, [this] { return unannounced_ != 0; });
+        if (isIdle())
+            changed_.wait(lock, stop, [&] { return !isIdle(); });
         else
             changed_.wait_for(lock, stop, limits_.unannounced, [] { return false; });
-        const Clock::time_point old = Clock::now() - limits_.unannounced;
-        for (auto slot = slots_.begin(); slot != slots_.end();) {
-            const auto next = std::next(slot);
-            if (!slot->second.announced && slot->second.since <= old) {
-                --unannounced_;
-                erase(slot);
-            }
-            slot = next;
-        }
+        const Clock::time_point now = Clock::now();
+        dropUnannounced(now);
+        breakOffStalled(now);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <compare>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -42,6 +43,7 @@ public:
         std::uint64_t bytes = std::uint64_t{1} << 30;
         std::size_t pictures = 1024;  ///< that nobody has announced
         std::chrono::milliseconds unannounced{5000};
+        std::chrono::milliseconds arriving{60000};  ///< until a sender is taken to have stalled
     };
 
     /// A picture that is arriving. It fails, with whoever waits for it, when this goes before
@@ -94,9 +96,10 @@ public:
                                         const std::stop_token& stop);
 
     /// A picture begins to arrive. InvalidArgument when it is not as announced, AlreadyExists when
-    /// it has come before, ResourceExhausted beyond the limits.
+    /// it has come before, ResourceExhausted beyond the limits. `breakOff` is called, with the
+    /// mailbox locked, of one that takes longer than it may: whoever has the Arrival is to drop it.
     absl::StatusOr<Arrival> admit(const FrameKey& key, const fabric::PixelViewport& area,
-                                  bool hasDepth);
+                                  bool hasDepth, std::function<void()> breakOff = {});
 
     std::uint64_t bytesHeld() const;
 
@@ -114,11 +117,17 @@ private:
         Clock::time_point since{};
     };
     using Slots = std::map<FrameKey, Slot>;
+    struct Arriving {
+        Clock::time_point since{};
+        std::function<void()> breakOff;
+    };
 
     static absl::Status checkFits(const FrameKey& key, const Slot& slot);
     absl::Status checkRoom(const Slot& slot, std::uint64_t bytes) const;
     void arrive(const Arrival& arrival, absl::StatusOr<fabric::Image> image);
     void erase(Slots::iterator slot);
+    void dropUnannounced(Clock::time_point now);
+    void breakOffStalled(Clock::time_point now);
     void sweep(const std::stop_token& stop);
 
     const Limits limits_;
@@ -128,8 +137,9 @@ private:
     Slots slots_;
     std::uint64_t bytesHeld_ = 0;
     std::uint64_t arrivals_ = 0;
-    std::size_t unannounced_ = 0;  ///< slots
-    std::jthread sweeper_;         ///< drops what nobody announces
+    std::map<std::uint64_t, Arriving> arriving_;  ///< by their numbers
+    std::size_t unannounced_ = 0;                 ///< slots
+    std::jthread sweeper_;                        ///< drops what nobody announces, and what stalls
 };
 
 }  // namespace eyrie::service

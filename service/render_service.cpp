@@ -170,7 +170,7 @@ grpc::ServerReadReactor<v1::PutFrameRequest>* RenderService::PutFrame(
     grpc::CallbackServerContext* context, v1::PutFrameResponse* /*response*/) {
     if (const absl::Status status = wire::admit(security_, *context); !status.ok())
         return new RefusedFrame(status);
-    return new FrameReceiver(exchange_.mailbox());
+    return new FrameReceiver(exchange_.mailbox(), *context);
 }
 
 grpc::ServerUnaryReactor* RenderService::Pick(grpc::CallbackServerContext* context,

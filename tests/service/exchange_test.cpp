@@ -3,6 +3,7 @@
 #include "service/exchange.h"
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <future>
 #include <thread>
@@ -477,6 +478,25 @@ TEST(Mailbox, WhatNobodyAnnouncesGoes) {
     mailbox.admit(kKey, {0, 0, 10, 1}, true)->complete(fabric::makeImage({0, 0, 10, 1}, {}, true));
     EXPECT_TRUE(eventually([&] { return mailbox.bytesHeld() == 0; }));
     EXPECT_TRUE(mailbox.admit(kKey, {0, 0, 10, 1}, true).ok());
+}
+
+TEST(Mailbox, BreaksOffWhatStalls) {
+    using std::chrono::milliseconds;
+    Mailbox mailbox({.unannounced = milliseconds(5), .arriving = milliseconds(20)});
+    std::atomic<int> brokenOff = 0;
+    const auto admit = [&](std::uint32_t frame) {
+        return mailbox.admit({1, 2, frame}, {0, 0, 10, 1}, true, [&] { ++brokenOff; });
+    };
+    admit(1)->complete(fabric::makeImage({0, 0, 10, 1}, {}, true));
+    {
+        const auto stalled = admit(2);
+        ASSERT_TRUE(stalled.ok());
+        EXPECT_TRUE(eventually([&] { return brokenOff == 1; }));
+        std::this_thread::sleep_for(milliseconds(50));
+        EXPECT_EQ(brokenOff, 1) << "once, and not what has come";
+        EXPECT_EQ(mailbox.bytesHeld(), 80U) << "until its receiver drops it";
+    }
+    EXPECT_EQ(mailbox.bytesHeld(), 0U);
 }
 
 TEST(Mailbox, WhatComesAfterItsProgramEndedIsDropped) {
