@@ -2,14 +2,14 @@
 // What loading does to the frame times of a flight over terrain or a mesh.
 //
 //   build/release/bench/cold_flight FILE.eyt|FILE.eym [FRAMES=300] [TAU=1] [DEVICE_MIB=2048]
-//   [HOST_MIB=512]
+//   [HOST_MIB=1024]
 //
-// Flies twice, with interactive frames: with nothing loaded (the file is dropped from the system's
-// cache, too), then once more. On a machine that is not idle, compare the processor time of the
-// thread that draws, with LP_NUM_THREADS=0 so that llvmpipe does all its work there. Prints frame
-// times, also as ratios to the same frame of the second flight, what was missing in each tenth of
-// the flight, and the greatest use of memory; then rests at the end of the flight until nothing
-// more is loaded.
+// Flies three times, with interactive frames: with nothing loaded (the file is dropped from the
+// system's cache, too), then twice more. On a machine that is not idle, compare the processor time
+// of the thread that draws, with LP_NUM_THREADS=0 so that llvmpipe does all its work there. Prints
+// frame times, also as ratios to the same frame of the second flight, what was missing in each
+// tenth of the flight, and the greatest use of memory; then rests at the end of the flight until
+// nothing more is loaded.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -233,7 +233,7 @@ int main(int argc, char** argv) {
     if (argc < 2 || std::string(argv[1]) == "--help") {
         fmt::print(stderr,
                    "usage: cold_flight FILE.eyt|FILE.eym [FRAMES=300] [TAU=1] [DEVICE_MIB=2048] "
-                   "[HOST_MIB=512]\n");
+                   "[HOST_MIB=1024]\n");
         return 2;
     }
     Options options;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <glm/geometric.hpp>
+
 #include "renderer/terrain/tile_bytes.h"
 
 namespace eyrie::draw {
@@ -87,16 +89,28 @@ std::vector<TerrainItem> TerrainItems::inOrder(const std::vector<TileId>& tiles,
     };
     std::vector<Scored> scored;
     scored.reserve(tiles.size() + textures.size());
-    const auto add = [&](const TerrainItem& item, double sidePosts, const fabric::Box& bounds) {
+    const auto add = [&](const TerrainItem& item, double sidePosts, const fabric::Box& bounds,
+                         double offMetres) {
+        constexpr double kMostPixels = 1e4;  // where no bound is finite, the middle first
         const fabric::PixelViewport covered = view.coveredPixels(bounds);
         const double x = (covered.x + 0.5 * covered.width) / view.view().width - 0.5;
         const double y = (covered.y + 0.5 * covered.height) / view.view().height - 0.5;
-        const double pixels = std::max(covered.width, covered.height);
+        const double pixels = std::min(view.screenSpaceErrorPixels(offMetres, bounds), kMostPixels);
         scored.push_back({item, sidePosts, pixels / (0.1 + x * x + y * y)});
     };
-    for (const TileId& tile : tiles) add(of(tile), Quadtree::side(tile.level), index_.bounds(tile));
-    for (const TextureId& texture : textures)
-        add(of(texture), index_.imagery->pyramid.sidePosts(texture.level), boundsOf(texture));
+    for (const TileId& tile : tiles) {
+        const TileId standIn = tile == index_.quadtree.top() ? tile : Quadtree::parent(tile);
+        add(of(tile), Quadtree::side(tile.level), index_.bounds(tile),
+            index_.tile(standIn).greatestErrorMetres());
+    }
+    const double postMetres = std::max(glm::length(fabric::Vec3(index_.objectFromLattice[0])),
+                                       glm::length(fabric::Vec3(index_.objectFromLattice[1])));
+    for (const TextureId& texture : textures) {
+        const terrain::TexturePyramid& pyramid = index_.imagery->pyramid;
+        const double texelPosts = pyramid.texelPosts(texture.level + 1);
+        add(of(texture), pyramid.sidePosts(texture.level), boundsOf(texture),
+            texelPosts * postMetres);
+    }
     std::stable_sort(scored.begin(), scored.end(), [](const Scored& a, const Scored& b) {
         return a.sidePosts != b.sidePosts ? a.sidePosts > b.sidePosts : a.score > b.score;
     });

@@ -45,8 +45,9 @@ public:
     MemoryUse greatestUse() const;
     TextureFormat format() const { return format_; }
 
-    /// Large ones on the ground first; among equals by the pixels they cover and by nearness to the
-    /// view's axis.
+    /// Large ones on the ground first; among equals by how many pixels what stands in for them is
+    /// off, a tile by its error and a texture tile by its texels, and by nearness to the view's
+    /// axis.
     std::vector<TerrainItem> inOrder(const std::vector<terrain::TileId>& tiles,
                                      const std::vector<terrain::TextureId>& textures,
                                      const lod::ObjectView& view) const;

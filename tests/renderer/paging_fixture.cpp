@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "renderer/gl/debug_output.h"
+#include "renderer/import/terrain_import.h"
 #include "tests/renderer/sample_scene.h"
 
 namespace eyrie::test {
@@ -30,15 +31,24 @@ void Paging::SetUp() {
     auto scene = sampleScene(SampleKind::Terrain);
     ASSERT_TRUE(scene.ok()) << scene.status();
     scene_ = *scene;
+    copyAndOpen();
+}
+
+void Paging::take(const terrain::HeightGrid& grid) {
+    scene_.objects[0].path = folder_.path("own.eyt");
+    const auto report = import::importTerrain(grid, {"own", "", 0}, scene_.objects[0].path, {});
+    ASSERT_TRUE(report.ok()) << report.status();
+    copyAndOpen();
+}
+
+void Paging::copyAndOpen() {
     auto file = terrain::EytFile::open(scene_.objects[0].path);
     ASSERT_TRUE(file.ok()) << file.status();
     file_ = *file;
-    copy_ = scene_.objects[0].path + ".copy";
+    copy_ = folder_.path("copy.eyt");
     std::filesystem::copy_file(scene_.objects[0].path, copy_,
                                std::filesystem::copy_options::overwrite_existing);
 }
-
-void Paging::TearDown() { std::filesystem::remove(copy_); }
 
 void Paging::flip(std::uint32_t page) {
     const terrain::PageRecord& record = file_->index().pages[page];
@@ -52,11 +62,11 @@ void Paging::flip(std::uint32_t page) {
     file.put(byte);
 }
 
-void Paging::withhold(int level, bool everywhere) {
+void Paging::withholdWest(int level) {
     for (std::uint32_t page = 0; page < quadtree().pageCount(); ++page) {
         const TileId first = quadtree().firstTileOfPage(page);
         const bool isWest = 2 * first.x < quadtree().tilesX(first.level);
-        if (first.level < level && (isWest || everywhere))
+        if (first.level < level && isWest)
             flip(page);
     }
 }

@@ -15,6 +15,8 @@
 #include "fabric/scene.h"
 #include "renderer/renderer.h"
 #include "renderer/terrain/eyt_format.h"
+#include "renderer/terrain/height_grid.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eyrie::test {
 
@@ -24,15 +26,17 @@ protected:
     static constexpr auto kPatience = std::chrono::seconds(30);
 
     void SetUp() override;
-    void TearDown() override;
+
+    /// Takes this in place of the sample terrain.
+    void take(const terrain::HeightGrid& grid);
 
     const terrain::Quadtree& quadtree() const { return file_->index().quadtree; }
 
     /// Damages the copy's page, or repairs it when it is damaged.
     void flip(std::uint32_t page);
 
-    /// Damages the pages of all levels below `level` that lie in the western half, or everywhere.
-    void withhold(int level, bool everywhere);
+    /// Damages the pages of all levels below `level` that lie in the western half.
+    void withholdWest(int level);
 
     /// Damages the pages of one level everywhere.
     void withholdLevel(int level);
@@ -65,6 +69,11 @@ protected:
     fabric::Scene scene_;
     std::shared_ptr<const terrain::EytFile> file_;
     std::string copy_;
+
+private:
+    void copyAndOpen();
+
+    TemporaryFolder folder_;
 };
 
 }  // namespace eyrie::test

@@ -108,7 +108,7 @@ TEST_F(Paging, IndicesOfAllTerrainsCountTogether) {
     EXPECT_NE(status.message().find("its index takes"), std::string::npos) << status;
 }
 
-class LittleMemory : public Paging, public testing::WithParamInterface<bool> {
+class HardCase23 : public Paging, public testing::WithParamInterface<bool> {
 protected:
     /// Inside the coarser tiles' bounds, where no finite error is promised, or clear of them.
     Camera camera(int i) const {
@@ -121,7 +121,7 @@ protected:
     }
 };
 
-TEST_P(LittleMemory, AQuarterOfWhatIsNeededIsKeptToAndLoadingComesToRest) {
+TEST_P(HardCase23, AQuarterOfWhatIsNeededIsKeptToAndLoadingComesToRest) {
     const auto unlimited = open(scene_.objects[0].path);
     draw(*unlimited, camera(0), Completeness::Complete, 0.1);
     RendererOptions options;
@@ -155,10 +155,11 @@ TEST_P(LittleMemory, AQuarterOfWhatIsNeededIsKeptToAndLoadingComesToRest) {
     const ChannelResult complete =
         draw(*open(scene_.objects[0].path, options), camera(0), Completeness::Complete, 0.1);
     EXPECT_TRUE(complete.statistics.complete);
+    EXPECT_TRUE(complete.statistics.memoryRaisedTau);
     EXPECT_EQ(different(complete.image, result.image), 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cameras, LittleMemory, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(Cameras, HardCase23, testing::Bool());
 
 /// In shares of what two views need together.
 struct Limits {

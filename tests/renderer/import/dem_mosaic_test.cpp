@@ -184,27 +184,34 @@ TEST_F(DemMosaic, JoinsTwoCrsWithoutAStepAtTheSeam) {
                 hill(grid.origin.x + grid.perColumn.x * i, grid.origin.y + grid.perRow.y * j), 0.3);
 }
 
+/// One above the other: what is nodata of one is a height of the next, but for what never is.
 TEST_F(DemMosaic, HonoursEachRastersOwnNodata) {
-    const auto half = [](double nodata) {
-        return [nodata](double x, double) { return x < 500050 ? nodata : 8.0; };
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    constexpr double kGreatest = std::numeric_limits<float>::max();
+    struct Raster {
+        double west, east;  ///< heights of its halves
+        double nodata;
     };
-    const std::string a =
-        write({.west = 500000, .north = 5200100, .height = half(-1), .nodata = -1});
-    const std::string b = write({.west = 500000,
-                                 .north = 5200200,
-                                 .height = half(std::numeric_limits<double>::infinity()),
-                                 .nodata = 0});
-    const std::string c =
-        write({.west = 500000, .north = 5200300, .height = half(std::nan("")), .nodata = 650});
-    const auto dem = test::readDems({a, b, c});
+    const std::vector<Raster> rasters{{0, 650, 0},           {650, 0, 650},
+                                      {-32768, 650, -32768}, {kGreatest, 0, kGreatest},
+                                      {kInfinity, 8, -1},    {std::nan(""), 8, 7}};
+    std::vector<std::string> paths;
+    for (const Raster& raster : rasters)
+        paths.push_back(write(
+            {.west = 500000,
+             .north = 5200100 + 100.0 * static_cast<double>(paths.size()),
+             .height = [&](double x, double) { return x < 500050 ? raster.west : raster.east; },
+             .nodata = raster.nodata}));
+    const auto dem = test::readDems(paths);
     ASSERT_TRUE(dem.ok()) << dem.status();
-    EXPECT_EQ(dem->grid.rows, 30);
-    for (std::int32_t j = 0; j < 30; ++j)
+    ASSERT_EQ(dem->grid.rows, 60);
+    for (std::int32_t j = 0; j < 60; ++j)
         for (std::int32_t i = 0; i < 10; ++i) {
+            const Raster& raster = rasters[static_cast<std::size_t>(j / 10)];
             if (i < 5)
                 EXPECT_TRUE(std::isnan(dem->grid.at(i, j))) << i << " " << j;
             else
-                EXPECT_EQ(dem->grid.at(i, j), 8);
+                EXPECT_EQ(dem->grid.at(i, j), static_cast<float>(raster.east)) << i << " " << j;
         }
 }
 

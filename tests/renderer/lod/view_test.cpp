@@ -338,9 +338,9 @@ TEST(LatticeView, TakesAFarOriginBackThatItsObjectIsPlacedBy) {
     EXPECT_LT(glm::distance(back.cameraOffsetMetres, here.cameraOffsetMetres), 1e-5);
 }
 
-/// Hard case 21: the camera walks 1,000 steps of a tenth of a millimetre, 6,400 km from the origin,
+/// The camera walks 1,000 steps of a tenth of a millimetre, 6,400 km from the origin,
 /// snapping to lattice points of 8 mm and 1 m on its way. Positions there are doubles 1e-9 m apart.
-TEST(LatticeView, MovesThePictureSteadilyWhileTheCameraSnaps) {
+TEST(HardCase21, MovesThePictureSteadilyWhileTheCameraSnaps) {
     for (const double step : {1.0 / 128, 1.0}) {
         const Vec3 origin(6.4e6, -6.4e6, 0);
         const Mat4 worldFromLattice = glm::scale(glm::translate(Mat4(1.0), origin), Vec3(step));
