@@ -358,16 +358,21 @@ private:
         return false;
     }
 
-    /// Of pixels that are drawn a few apart a picture shows the wall half a few beside the middle:
-    /// those of the wall's width and height.
-    static fabric::Vec2 shiftOf(const ResolvedCompound& own, const Destination& destination) {
-        const auto share = [](std::int64_t first, std::int64_t apart, double count) {
-            return count > 0 ? static_cast<double>(2 * first + 1 - apart) / (2 * count) : 0;
-        };
-        return {share(own.pixel.x, own.pixel.width,
-                      destination.pixelViewport.width * own.viewport.width),
-                share(own.pixel.y, own.pixel.height,
-                      destination.pixelViewport.height * own.viewport.height)};
+    /// How far beside a compound's part of the wall the pixels lie that are drawn of it, of several
+    /// apart: in pixels of the destination.
+    static fabric::Vec2 shiftOf(std::span<const fabric::Regridding> regriddings) {
+        fabric::Vec2 shift{0, 0};
+        fabric::Vec2 pixel{1, 1};
+        for (const fabric::Regridding& each : regriddings)
+            if (each.kind == fabric::Regridding::Kind::EveryNth) {
+                const fabric::Vec2 every(each.everyColumn, each.everyRow);
+                shift += pixel * (fabric::Vec2(each.firstColumn, each.firstRow) + .5 - every / 2.0);
+                pixel *= every;
+            } else {
+                pixel *= fabric::Vec2(each.of.width, each.of.height) /
+                         fabric::Vec2(each.width, each.height);
+            }
+        return shift;
     }
 
     /// Through the compound's part of the wall, where heads are in their places and as observers'
@@ -385,9 +390,12 @@ private:
         const Wall inFocus = scaled(
             *wall, places.cyclop,
             focusRatio(configuration_, resolved_.destinations, destination, fabric::Mat4(1.0)));
-        const fabric::Vec2 shift = shiftOf(own, destination);
-        const Wall seen =
-            config::part(config::part(inFocus, own.viewport), {shift.x, shift.y, 1, 1});
+        const fabric::Vec2 shift =
+            shiftOf(own.regriddings) /
+            fabric::Vec2(destination.pixelViewport.width, destination.pixelViewport.height);
+        const Viewport& share = own.viewport;
+        const Wall seen = config::part(
+            inFocus, {share.x + shift.x, share.y + shift.y, share.width, share.height});
         using Eye = EyeSight::Eye;
         const auto add = [&](bool isShown, Eye eye, const char* name, const fabric::Vec3& place) {
             if (!isShown)

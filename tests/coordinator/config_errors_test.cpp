@@ -172,16 +172,21 @@ TEST(EqcErrors, AreEyesThatAreNotBeforeTheirWall) {
 
 /// A room whose origin is on its floor, say: the head is elsewhere.
 TEST(EqcErrors, AreNotEyesThatATrackerMoves) {
-    const Read read(
-        "config { appNode { pipe { window { channel { name \"a\" } } } }"
-        " observer { eye_cyclop [ 0 0 -2 ] vrpn_tracker \"head\" }"
-        " layout { view { observer 0 } }"
-        " canvas { layout 0 wall {} segment { channel \"a\" } } }");
+    const auto trackedBy = [](const std::string& tracker) {
+        return Read(
+            "config { appNode { pipe { window { channel { name \"a\" } } } }"
+            " observer { eye_cyclop [ 0 0 -2 ] " +
+            tracker +
+            " } layout { view { observer 0 } }"
+            " canvas { layout 0 wall {} segment { channel \"a\" } } }");
+    };
+    EXPECT_TRUE(trackedBy("opencv_camera OFF").findings.hasErrors());
+    EXPECT_FALSE(trackedBy("opencv_camera ON").findings.hasErrors());
+    const Read read = trackedBy("vrpn_tracker \"head\"");
     EXPECT_FALSE(read.findings.hasErrors());
-    EXPECT_THAT(
-        describe(read.findings, "f"),
-        HasSubstr("warning: the eye CYCLOP is not before the wall that it looks through: it "
-                  "sees nothing until its head is moved there"));
+    EXPECT_THAT(describe(read.findings, "f"),
+                HasSubstr("warning: the eye CYCLOP is not before the wall that it looks through: "
+                          "it sees nothing until its head is moved there"));
 }
 
 TEST(EqcErrors, AreMoreStatementsThanAnyFileHas) {
