@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/composite/place.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -52,11 +53,19 @@ struct Fed {
     Tap tap;
 };
 
+/// By a source that reaches from `begin` on over `size` pixels. Of two neighbours of which it has
+/// one the nearer decides whose the pixel is, so that sources which meet leave none out; of the
+/// other it knows nothing.
 std::vector<Fed> fed(std::span<const Tap> taps, std::int32_t begin, std::int32_t size) {
     std::vector<Fed> found;
-    for (std::size_t i = 0; i < taps.size(); ++i)
-        if (!taps[i].isNone() && taps[i].first >= begin && taps[i].second < begin + size)
-            found.push_back({static_cast<std::int32_t>(i), taps[i]});
+    for (std::size_t i = 0; i < taps.size(); ++i) {
+        Tap tap = taps[i];
+        if (tap.isNone() || tap.nearest() < begin || tap.nearest() >= begin + size)
+            continue;
+        tap.first = std::max(tap.first, begin);
+        tap.second = std::min(tap.second, begin + size - 1);
+        found.push_back({static_cast<std::int32_t>(i), tap});
+    }
     return found;
 }
 

@@ -40,19 +40,18 @@ absl::Status prepareAll(const ProgramRuns::Setting& setting,
     std::vector<std::future<absl::Status>> prepared;
     for (const auto& one : renderers)
         prepared.push_back(one->prepare(setting.frameData, setting.sceneRevision, setting.timeout));
-    absl::Status status;
+    const auto deadline = std::chrono::steady_clock::now() + setting.timeout;
     for (auto& one : prepared) {
-        const auto deadline = std::chrono::steady_clock::now() + setting.timeout;
         bool isReady = false;
         while (!isReady && !setting.stop.stop_requested() &&
                std::chrono::steady_clock::now() < deadline)
             isReady = one.wait_for(kLookForStop) == std::future_status::ready;
         if (setting.stop.stop_requested())
             return absl::CancelledError("nobody wants this frame any more");
-        status.Update(isReady ? one.get()
-                              : absl::DeadlineExceededError("a renderer has other work to do"));
+        RETURN_IF_ERROR(isReady ? one.get()
+                                : absl::DeadlineExceededError("a renderer has other work to do"));
     }
-    return status;
+    return absl::OkStatus();
 }
 
 }  // namespace
@@ -64,7 +63,11 @@ absl::StatusOr<ProgramRuns::Result> ProgramRuns::run(
     std::vector<std::shared_ptr<void>> occupied;
     for (const auto& one : renderers) occupied.push_back(one->occupy());
     setting.handedOut();
-    RETURN_IF_ERROR(prepareAll(setting, renderers));
+    if (const absl::Status status = prepareAll(setting, renderers); !status.ok()) {
+        occupied.clear();
+        setting.freed();
+        return status;
+    }
     std::stop_source stop;
     const std::stop_callback unwanted(setting.stop, [&] { stop.request_stop(); });
     using Answer = absl::StatusOr<fabric::ProgramResult>;

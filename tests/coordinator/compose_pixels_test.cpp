@@ -137,6 +137,35 @@ TEST(Compose, ZoomedByHalfEachPixelStandsForFour) {
             ASSERT_EQ(got[0].colour[y * 40 + x], small.colour[y / 2 * 20 + x / 2]);
 }
 
+/// Halves of a picture zoomed by .7 meet as if it were one: but for the columns beside the seam,
+/// which know nothing of their neighbours on the other side.
+TEST(Compose, PartsOfAZoomedPictureMeet) {
+    const LayeredScene scene(3);
+    config::Compound whole = source(1);
+    whole.zoom = {.7, .7};
+    config::Compound left = source(1);
+    left.viewport = {0, 0, .5, 1};
+    config::Compound right = source(2);
+    right.viewport = {.5, 0, .5, 1};
+    config::Compound group;
+    group.zoom = {.7, .7};
+    group.children = {left, right};
+    config::Configuration halves = withChildren({group});
+    for (const config::Compound& child : {left, right})
+        halves.compounds[0].inputFrames.push_back(
+            RandomCompounds::frame(child.outputFrames.at(0).name));
+    const auto expected = pictures(withChildren({whole}), wholeCanvas(), scene);
+    const auto got = pictures(halves, wholeCanvas(), scene);
+    ASSERT_EQ(expected.size(), 1U);
+    ASSERT_EQ(got.size(), 1U);
+    const auto isBackground = [](const fabric::Rgba& pixel) {
+        return pixel == LayeredScene::kBackground;
+    };
+    EXPECT_LT(differingPixels(expected[0], got[0]), 4 * kSize.height);
+    for (std::size_t i = 0; i < expected[0].colour.size(); ++i)
+        EXPECT_TRUE(isBackground(expected[0].colour[i]) || !isBackground(got[0].colour[i])) << i;
+}
+
 TEST(Compose, ZoomedByTwoEachPixelIsTheMeanOfFour) {
     config::Compound twice = source(1);
     twice.zoom = {2, 2};

@@ -139,6 +139,10 @@ TEST(FramerateEqualizer, SpacesTheFramesOfAPeriodEvenly) {
     config::Configuration live = balanced.live;
     balanced.equalizers.apply(live, {balanced.number + 1, balanced.resolved, {}});
     EXPECT_EQ(balanced.equalizers.intervalMilliseconds(), 0) << "of what is not shown";
+    for (config::Destination& each : balanced.resolved.destinations) each.isShown = true;
+    balanced.equalizers.apply(
+        live, {.frameNumber = balanced.number + 2, .resolved = balanced.resolved, .canvases = {7}});
+    EXPECT_EQ(balanced.equalizers.intervalMilliseconds(), 0) << "of what another canvas shows";
 }
 
 TEST(FramerateEqualizer, AddsUpWhatOnePipeDrawsForAFrame) {
@@ -250,6 +254,21 @@ TEST(DfrEqualizer, EnlargesNoMoreThanPlansTake) {
     for (int frame = 0; frame < 20; ++frame) balanced.draw([](const auto&) { return .001; });
     EXPECT_EQ(balanced.live.compounds[0].children[0].zoom,
               fabric::Vec2(config::kMostZoom, config::kMostZoom));
+}
+
+/// Every fourth pixel, by a channel that has room for more than a page shows.
+TEST(DfrEqualizer, EnlargesNoShareOfPixels) {
+    config::Findings findings;
+    Balanced balanced(config::readEqc(
+        "config { appNode { pipe { window { viewport [ 0 0 1280 720 ] channel { name \"a\" } } "
+        "window { viewport [ 0 0 1920 1080 ] channel { name \"b\" } } } } layout { view { } } "
+        "canvas { layout 0 segment { channel \"a\" } } compound { channel ( segment 0 view 0 ) "
+        "compound { DFR_equalizer { framerate 20 } channel \"b\" pixel [ 0 0 4 1 ] outputframe { "
+        "name \"some\" } } inputframe { name \"some\" } } }",
+        findings));
+    ASSERT_FALSE(findings.hasErrors()) << config::describe(findings, "the test's");
+    for (int frame = 0; frame < 20; ++frame) balanced.draw([](const auto&) { return .001; });
+    EXPECT_EQ(balanced.live.compounds[0].children[0].zoom, fabric::Vec2(1, 1));
 }
 
 TEST(TileEqualizer, HasChildrenFetchTilesWhileItIsOn) {

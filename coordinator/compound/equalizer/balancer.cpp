@@ -27,6 +27,15 @@ double Turn::resources(std::size_t position) const {
     return sum;
 }
 
+bool Turn::isAskedFor(const config::ResolvedCompound& compound) const {
+    const std::vector<std::size_t>& canvases = facts.canvases;
+    if (!compound.destination)
+        return canvases.empty();
+    const config::Destination& shown = facts.resolved.destinations[*compound.destination];
+    return shown.isShown &&
+           (canvases.empty() || std::ranges::find(canvases, shown.index.canvas) != canvases.end());
+}
+
 std::unique_ptr<Balancer> makeBalancer(const config::Equalizer& equalizer,
                                        const config::Compound& written, std::size_t position,
                                        const Work& work) {

@@ -46,6 +46,9 @@ struct Turn {
     }
     /// What the compounds that draw in the tree at `position` may use, each channel once.
     double resources(std::size_t position) const;
+    /// Whether what it is drawn for is on a canvas that is asked for, in the layout that that
+    /// shows.
+    bool isAskedFor(const config::ResolvedCompound& compound) const;
 };
 
 /// One equalizer of one compound at work. Settings may differ from frame to frame.

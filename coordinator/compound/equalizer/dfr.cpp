@@ -53,9 +53,12 @@ void Dfr::apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) {
     if (!compound->destination || !(shorter > 0) || !std::isfinite(shorter))
         return;
     const double least = std::min(1.0, kLeastPixels / shorter);
-    const double most = std::min({roomOf(turn, position_, shown),
-                                  fabric::kMaxViewPixels / std::max(shown.x, shown.y),
-                                  config::kMostZoom / std::max(written_.x, written_.y)});
+    double most = std::min({roomOf(turn, position_, shown),
+                            fabric::kMaxViewPixels / std::max(shown.x, shown.y),
+                            config::kMostZoom / std::max(written_.x, written_.y)});
+    // Where every n-th pixel is drawn, more pixels than those would lie outside the view.
+    if (compound->pixel != config::PixelShare{})
+        most = std::min(most, std::max(1.0, 1 / std::max(written_.x, written_.y)));
     zoom_ = std::clamp(zoom_, least, std::max(least, most));
     turn.live[position_]->zoom = turn.facts.isComplete ? written_ : written_ * zoom_;
 }

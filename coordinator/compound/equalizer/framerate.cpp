@@ -22,9 +22,7 @@ void Framerate::apply(Turn& turn, const config::Equalizer&, bool isFrozen) {
     for (const std::size_t child : children_)
         if (const auto* const compound = turn.resolved(child)) {
             period = std::clamp(compound->period, period, kLongestPeriod);
-            isAtWork_ =
-                isAtWork_ || (compound->destination &&
-                              turn.facts.resolved.destinations[*compound->destination].isShown);
+            isAtWork_ = isAtWork_ || (compound->destination && turn.isAskedFor(*compound));
         }
     period_ = static_cast<std::size_t>(period);
 }

@@ -22,16 +22,6 @@ void giveZooms(const Zooms& zooms, std::vector<config::Frame>& frames) {
         frames[i].zoom = zooms[i];
 }
 
-/// On a canvas that is asked for, in the layout that it shows.
-bool isAskedFor(const Turn& turn, const config::ResolvedCompound& compound) {
-    const std::vector<std::size_t>& canvases = turn.facts.canvases;
-    if (!compound.destination)
-        return canvases.empty();
-    const config::Destination& shown = turn.facts.resolved.destinations[*compound.destination];
-    return shown.isShown &&
-           (canvases.empty() || std::ranges::find(canvases, shown.index.canvas) != canvases.end());
-}
-
 /// The frame's for who takes it so: for a monitor at work what that says, for others `written`.
 fabric::Vec2 zoomFor(const Turn& turn, const MonitoredFrame& frame, std::size_t position,
                      std::size_t input, const fabric::Vec2& written) {
@@ -54,7 +44,7 @@ std::vector<Taker> takersOf(const Turn& turn, const MonitoredFrame& frame) {
     for (std::size_t p = root; p < turn.work.at(root).end; ++p) {
         const config::ResolvedCompound* const compound = turn.resolved(p);
         if (compound == nullptr || !compound->tasks.assemble || !meet(source, *compound) ||
-            !isAskedFor(turn, *compound))
+            !turn.isAskedFor(*compound))
             continue;
         for (std::size_t i = 0; i < compound->inputFrames.size(); ++i)
             if (compound->inputFrames[i].name == name)
