@@ -38,6 +38,9 @@ absl::Status checkBand(const std::string& path, GDALRasterBandH band) {
     if (GDALDataTypeIsComplex(type))
         return invalid(path, fmt::format("band 1 holds complex numbers ({}), not heights",
                                          GDALGetDataTypeName(type)));
+    const bool mayBePicture = type == GDT_Byte || type == GDT_UInt16;
+    if (!mayBePicture)
+        return absl::OkStatus();  // the colours are how programs show the heights
     const GDALColorInterp colour = GDALGetRasterColorInterpretation(band);
     if (colour == GCI_PaletteIndex || GDALGetRasterColorTable(band) != nullptr)
         return invalid(path, "band 1 holds palette indices of a picture, not heights");
@@ -47,16 +50,15 @@ absl::Status checkBand(const std::string& path, GDALRasterBandH band) {
     return absl::OkStatus();
 }
 
-/// Metres per unit of a band's unit tag, singular or plural; 1 for metres and for what it does not
-/// know.
-double metresPerUnit(const std::string& tag, std::vector<std::string>& notes) {
+/// Metres per unit of a band's unit tag, singular or plural; nothing for what it does not know.
+std::optional<double> metresPerUnit(const std::string& unit) {
     struct Unit {
         const char* name;
         double metres;
     };
     constexpr double kFoot = 0.3048;
     constexpr double kUsSurveyFoot = 1200.0 / 3937.0;
-    constexpr std::array<Unit, 27> kUnits = {{{"", 1},
+    constexpr std::array<Unit, 30> kUnits = {{{"", 1},
                                               {"m", 1},
                                               {"metre", 1},
                                               {"meter", 1},
@@ -64,9 +66,12 @@ double metresPerUnit(const std::string& tag, std::vector<std::string>& notes) {
                                               {"feet", kFoot},
                                               {"foot", kFoot},
                                               {"International foot", kFoot},
+                                              {"International feet", kFoot},
                                               {"foot (International)", kFoot},
                                               {"US survey foot", kUsSurveyFoot},
                                               {"US survey feet", kUsSurveyFoot},
+                                              {"US_survey_foot", kUsSurveyFoot},
+                                              {"survey foot", kUsSurveyFoot},
                                               {"us-ft", kUsSurveyFoot},
                                               {"ftUS", kUsSurveyFoot},
                                               {"foot_survey_us", kUsSurveyFoot},
@@ -83,36 +88,53 @@ double metresPerUnit(const std::string& tag, std::vector<std::string>& notes) {
                                               {"mm", 0.001},
                                               {"millimetre", 0.001},
                                               {"millimeter", 0.001}}};
-    const std::string unit(absl::StripAsciiWhitespace(tag));
     const auto isCalled = [&unit](const std::string& name) {
         constexpr std::size_t kLongestSymbol = 3;  // of which there is no plural
         return EQUAL(unit.c_str(), name.c_str()) ||
                (name.size() > kLongestSymbol && EQUAL(unit.c_str(), (name + 's').c_str()));
     };
     for (const Unit& known : kUnits)
-        if (isCalled(known.name)) {
-            if (known.metres != 1)
-                notes.push_back(fmt::format("heights in {} turned to metres", unit));
+        if (isCalled(known.name))
             return known.metres;
-        }
-    notes.push_back(fmt::format("height unit '{}' is unknown; taken for metres", unit));
-    return 1;
+    return std::nullopt;
 }
 
-/// Of the band's unit tag or, where it has none, of the heights of its CRS (null: none): some
-/// formats keep the one, some the other.
+/// Of the heights of a CRS (null: none); nothing where it says none.
+std::optional<double> metresPerUnitOf(OGRSpatialReferenceH crs, std::string& name) {
+    if (crs == nullptr || (OSRIsCompound(crs) == 0 && OSRIsVertical(crs) == 0))
+        return std::nullopt;
+    char* found = nullptr;
+    const double metres = OSRGetTargetLinearUnits(crs, "VERT_CS", &found);
+    if (!(metres > 0) || !std::isfinite(metres))
+        return std::nullopt;
+    name = found != nullptr ? found : "";
+    return metres;
+}
+
+/// Of the band's unit tag or, where it has none that is known, of the heights of its CRS (null:
+/// none): some formats keep the one, some the other. Metres where nothing says it.
 double metresPerUnit(GDALRasterBandH band, OGRSpatialReferenceH crs,
                      std::vector<std::string>& notes) {
-    const std::string unit = GDALGetRasterUnitType(band);
-    if (!unit.empty() || crs == nullptr)
-        return metresPerUnit(unit, notes);
-    char* name = nullptr;
-    const double metres = OSRGetTargetLinearUnits(crs, "VERT_CS", &name);
-    if (metres == 1 || !(metres > 0) || !std::isfinite(metres))
-        return 1;
-    notes.push_back(
-        fmt::format("heights in {} turned to metres, by the vertical unit of its CRS", name));
-    return metres;
+    const std::string unit(absl::StripAsciiWhitespace(GDALGetRasterUnitType(band)));
+    if (const auto metres = metresPerUnit(unit); metres && !unit.empty()) {
+        if (*metres != 1)
+            notes.push_back(fmt::format("heights in {} turned to metres", unit));
+        return *metres;
+    }
+    std::string name;
+    if (const auto metres = metresPerUnitOf(crs, name)) {
+        if (*metres != 1)
+            notes.push_back(fmt::format(
+                "heights in {} turned to metres, by the vertical unit of its CRS", name));
+        return *metres;
+    }
+    if (!unit.empty())
+        notes.push_back(fmt::format("height unit '{}' is unknown; taken for metres", unit));
+    else if (crs != nullptr && OSRIsProjected(crs) != 0 && OSRGetLinearUnits(crs, nullptr) != 1)
+        notes.push_back(
+            "its places are not in metres, and nothing says the unit of its heights: taken for "
+            "metres; if they are in feet, say so first (gdal_edit.py -units \"US survey foot\")");
+    return 1;
 }
 
 /// Whether its vertical axis points down. That tells nothing of a file's values: BAGs of NOAA, and

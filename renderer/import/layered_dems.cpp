@@ -49,6 +49,8 @@ public:
         std::fill_n(out, count, terrain::kNodata);
         bool isFirst = true;
         for (LayerReader& layer : layers_) {
+            if (!meets(layer, window))
+                continue;
             if (!isFirst && std::none_of(out, out + count, [](float h) { return h != h; }))
                 break;
             RETURN_IF_ERROR(addLayer(layer, window, out));
@@ -107,17 +109,26 @@ public:
     }
 
 private:
-    /// Fills in what is nodata so far.
+    int firstRowOf(const terrain::PostRect& window) const {
+        return isFlipped_ ? frame_.rows - window.j - window.rows : window.j;
+    }
+
+    bool meets(const LayerReader& reader, const terrain::PostRect& window) const {
+        const PixelBox& box = reader.layer().box;
+        const int firstRow = firstRowOf(window);
+        return box.column < window.i + window.columns && box.column + box.columns > window.i &&
+               box.row < firstRow + window.rows && box.row + box.rows > firstRow;
+    }
+
+    /// Fills in what is nodata so far. Precondition: the layer meets the window.
     absl::Status addLayer(LayerReader& reader, const terrain::PostRect& window, float* out) {
-        const int firstRow = isFlipped_ ? frame_.rows - window.j - window.rows : window.j;
+        const int firstRow = firstRowOf(window);
         const PixelBox& box = reader.layer().box;
         const int i0 = std::max(window.i, static_cast<int>(box.column));
         const int j0 = std::max(firstRow, static_cast<int>(box.row));
         const int i1 =
             std::min(window.i + window.columns, static_cast<int>(box.column) + box.columns);
         const int j1 = std::min(firstRow + window.rows, static_cast<int>(box.row) + box.rows);
-        if (i0 >= i1 || j0 >= j1)
-            return absl::OkStatus();
         const terrain::PostRect part{i0 - static_cast<int>(box.column),
                                      j0 - static_cast<int>(box.row), i1 - i0, j1 - j0};
         RETURN_IF_ERROR(reader.read(part, buffer_));

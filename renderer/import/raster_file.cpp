@@ -6,6 +6,9 @@
 #include <cstdlib>
 #include <memory>
 #include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <absl/strings/ascii.h>
 #include <cpl_string.h>
@@ -30,17 +33,24 @@ void allowManyOpenFiles() {
     setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-/// A raster among the files of a .zip, by a name that openRaster takes; "": there is none.
-std::string rasterInside(const std::string& path) {
+/// The files of a .zip, by names that openRaster takes.
+std::vector<std::string> filesInside(const std::string& path) {
     const std::string archive = gdalPath(path);
     if (!archive.starts_with("/vsizip/"))
-        return "";
+        return {};
+    std::vector<std::string> files;
     const std::unique_ptr<char*, Releaser<CSLDestroy>> names(VSIReadDirRecursive(archive.c_str()));
-    for (char** name = names.get(); name != nullptr && *name != nullptr; ++name) {
-        std::string file = fmt::format("{}/{}", archive, *name);
+    for (char** name = names.get(); name != nullptr && *name != nullptr; ++name)
+        if (!std::string_view(*name).ends_with('/'))
+            files.push_back(fmt::format("{}/{}", archive, *name));
+    return files;
+}
+
+/// A raster among the files of a .zip, by a name that openRaster takes; "": there is none.
+std::string rasterInside(const std::string& path) {
+    for (std::string& file : filesInside(path))
         if (GDALIdentifyDriverEx(file.c_str(), GDAL_OF_RASTER, nullptr, nullptr) != nullptr)
-            return file;
-    }
+            return std::move(file);
     return "";
 }
 
@@ -134,6 +144,11 @@ absl::StatusOr<Dataset> openRaster(const std::string& path, const char* wanted, 
     // no parts.
     if (!dataset && page::gdalName(path) != path && hasBytes(path))
         dataset = opened(path);
+    // Formats that go by a file's name, as SRTM's do, know it by the one inside.
+    if (const std::vector<std::string> files =
+            dataset ? std::vector<std::string>() : filesInside(path);
+        files.size() == 1)
+        dataset = opened(files.front());
     if (!dataset)
         return cannotBeOpened(path, wanted, gdal);
     if (GDALGetRasterCount(dataset.get()) < 1) {

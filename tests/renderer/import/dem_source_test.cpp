@@ -122,6 +122,40 @@ TEST_F(DemSource, TurnsUnitsOfTheCrsToMetres) {
     EXPECT_NEAR(dem->grid.origin.x, 1050 * 1200.0 / 3937, 1e-9);
 }
 
+TEST_F(DemSource, SaysWhereNothingTellsTheUnitOfHeightsBesidePlacesInFeet) {
+    const std::string place = "<GeoTransform>1000,100,0,5000,0,-100</GeoTransform>";
+    const auto notesOf = [&](const std::string& crs, const std::string& band) {
+        const auto dem = test::readDem(virtualRaster("<SRS>" + crs + "</SRS>" + place, band));
+        EXPECT_TRUE(dem.ok()) << dem.status();
+        return dem.ok() ? dem->notes : std::vector<std::string>();
+    };
+    const auto isSaid = testing::Contains(HasSubstr("nothing says the unit of its heights"));
+    EXPECT_THAT(notesOf("EPSG:2263", ""), isSaid);
+    EXPECT_THAT(notesOf("EPSG:2263", "<UnitType>m</UnitType>"), testing::Not(isSaid));
+    EXPECT_THAT(notesOf("EPSG:2263+6360", ""), testing::Not(isSaid));
+    EXPECT_THAT(notesOf("EPSG:32632", ""), testing::Not(isSaid));
+}
+
+TEST_F(DemSource, GoesByTheCrsWhereAUnitIsUnknown) {
+    const auto dem = test::readDem(virtualRaster(
+        "<SRS>EPSG:26910+6360</SRS><GeoTransform>500000,10,0,5200000,0,-10</GeoTransform>",
+        "<UnitType>Fuss</UnitType>"));
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_FLOAT_EQ(dem->grid.at(2, 0), static_cast<float>(5 * 1200.0 / 3937));
+}
+
+/// As EHdr has where a colour table lies beside it.
+TEST_F(DemSource, TakesHeightsThatHaveColours) {
+    const std::string colours =
+        "<ColorInterp>Palette</ColorInterp><ColorTable><Entry c1=\"0\" c2=\"90\" c3=\"0\" "
+        "c4=\"255\"/></ColorTable>";
+    const auto dem = test::readDem(virtualRaster("", colours, "Int16"));
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_EQ(dem->grid.at(2, 0), 5);
+    expectRefused(virtualRaster("", colours, "Byte"), absl::StatusCode::kInvalidArgument,
+                  "palette indices");
+}
+
 /// Where a post's coordinates are on the earth by the CRS that a terrain says it has.
 fabric::Vec2 degreesOf(const std::string& wkt, fabric::Vec2 place) {
     OGRSpatialReference from;
@@ -359,6 +393,24 @@ TEST_F(DemSource, LooksIntoArchivesHoweverTheirNamesAreWritten) {
     EXPECT_TRUE(elsewhere.ok()) << elsewhere.status();
     std::filesystem::rename(zip, folder_.path("DEM.ZIP"));
     EXPECT_TRUE(test::readDem(folder_.path("DEM.ZIP")).ok());
+}
+
+/// The form that SRTM comes in: its driver goes by the name.
+TEST_F(DemSource, ReadsTheOnlyFileOfAnArchiveByItsOwnName) {
+    constexpr int kSide = 1201;
+    std::string heights;
+    for (int i = 0; i < kSide * kSide; ++i) heights += std::string("\x01\xF4", 2);  // 500
+    const std::string zip = folder_.path("N46E008.SRTMGL3.hgt.zip");
+    GDALAllRegister();
+    VSILFILE* const file = VSIFOpenL(("/vsizip/" + zip + "/N46E008.hgt").c_str(), "wb");
+    ASSERT_NE(file, nullptr);
+    VSIFWriteL(heights.data(), 1, heights.size(), file);
+    VSIFCloseL(file);
+    const auto dem = test::readDem(zip);
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_EQ(dem->grid.at(dem->grid.columns / 2, dem->grid.rows / 2), 500);
+    std::filesystem::rename(zip, folder_.path("N46E008.zip"));
+    EXPECT_TRUE(test::readDem(folder_.path("N46E008.zip")).ok());
 }
 
 TEST_F(DemSource, RefusesWhatIsNoRaster) {

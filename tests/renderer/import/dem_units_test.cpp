@@ -71,7 +71,9 @@ TEST_F(DemMosaic, CountsWhatFloatsRoundAsErrors) {
 TEST_F(DemMosaic, KnowsUnitsHoweverTheyAreWritten) {
     const std::pair<const char*, float> units[] = {{"Feet ", 304.8F},
                                                    {"foot (International)", 304.8F},
+                                                   {"International feet", 304.8F},
                                                    {"US survey feet", 304.8006F},
+                                                   {"US_survey_foot", 304.8006F},
                                                    {"kilometers", 1.0e6F},
                                                    {"Decimetre", 100},
                                                    {"METERS", 1000}};
