@@ -74,7 +74,7 @@ TEST(ConfigurationForms, OfJsonMeanWhatTheirTextMeans) {
         {R"({"version": "1.0", "nodes": [{"pipes": [{"windows": [{"channels": [{"name": "a"}]}]}]}],
               "layouts": [{"views": [{"mode": "VIEW_MODE_MONO"}]}],
               "canvases": [{"layouts": [{"index": 0}], "segments": [{"channel": {"name": "a"}}]}],
-              "compounds": [{"channel": {"destination": {}}, "eyes": {"left": true, "right": true}}]})",
+              "compounds": [{"channel": {"destination": {}}, "eye": {"left": true, "right": true}}]})",
          R"({"nodes": [{"pipes": [{"windows": [{"channels": [{"name": "a"}]}]}]}],
               "compounds": [{"channel": {"name": "a"}}]})"}) {
         Findings findings;

@@ -17,9 +17,9 @@ TEST(SmallerPicture, HasTheShapeOfWholeRatios) {
     EXPECT_EQ(moving.height, 819);
     EXPECT_EQ(shapeErrorPixels(1920, 1080, moving), 0);
     const PictureSides odd = smallerPicture(1280, 721, 0.5);
-    EXPECT_EQ(odd.width, 639);
-    EXPECT_EQ(odd.height, 360);
-    EXPECT_LT(shapeErrorPixels(1280, 721, odd), 0.12);
+    EXPECT_EQ(odd.width, 632);
+    EXPECT_EQ(odd.height, 356);
+    EXPECT_NEAR(shapeErrorPixels(1280, 721, odd), 0.0112, 0.0001);
     EXPECT_NEAR(shapeErrorPixels(1280, 721, {640, 361}), 0.888, 0.001);
 }
 
