@@ -131,7 +131,7 @@ double metresPerUnit(GDALRasterBandH band, OGRSpatialReferenceH crs,
     if (!unit.empty())
         notes.push_back(fmt::format("height unit '{}' is unknown; taken for metres", unit));
     else if (crs != nullptr && OSRIsProjected(crs) != 0 && OSRGetLinearUnits(crs, nullptr) != 1)
-        notes.push_back(
+        notes.emplace_back(
             "its places are not in metres, and nothing says the unit of its heights: taken for "
             "metres; if they are in feet, say so first (gdal_edit.py -units \"US survey foot\")");
     return 1;
