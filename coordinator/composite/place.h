@@ -17,8 +17,9 @@ enum class Placing {
 };
 
 /// Pixels of `source` into `target`: column by column and row by row of `part`, those that the taps
-/// name, mixed by weight; depth is that of the nearest one. Pixels
-/// that have no tap, or one outside source.area, stay as they are.
+/// name, mixed by weight; depth is that of the nearest one. Pixels that have no tap, or one whose
+/// nearest pixel is outside source.area, stay as they are; of one that lies half outside the inner
+/// pixel counts alone.
 ///
 /// `columns` and `rows` are for part's pixels; their taps count as source.area does.
 /// Preconditions: target.area contains part; by depth, both have depth.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/config/overlaps.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <tuple>
+#include <vector>
 
 namespace eyrie::config {
 namespace {
@@ -24,17 +26,23 @@ auto placeOf(const Destination& shown, const Viewport& segment) {
 void noteOverlaps(const Configuration& configuration, const ResolvedConfiguration& resolved,
                   Findings& findings) {
     using Where = decltype(placeOf(Destination(), Viewport()));
-    std::map<Where, const Destination*> first;
+    std::map<Where, std::vector<const Destination*>> shown;
     std::set<std::size_t> noted;  // canvases
     for (const Destination& each : resolved.destinations) {
         const std::vector<Segment>& segments = configuration.canvases[each.index.canvas].segments;
-        const auto [found, isFirst] =
-            first.try_emplace(placeOf(each, segments[each.index.segment].viewport), &each);
-        const Destination& below = *found->second;
-        if (isFirst || !haveAnEyeInCommon(below.eyes, each.eyes) ||
-            !noted.insert(each.index.canvas).second)
+        if (noted.contains(each.index.canvas))
             continue;
-        findings.note(segments[below.index.segment].place,
+        std::vector<const Destination*>& there =
+            shown[placeOf(each, segments[each.index.segment].viewport)];
+        const auto below = std::ranges::find_if(there, [&](const Destination* other) {
+            return haveAnEyeInCommon(other->eyes, each.eyes);
+        });
+        if (below == there.end()) {
+            there.push_back(&each);
+            continue;
+        }
+        noted.insert(each.index.canvas);
+        findings.note(segments[(*below)->index.segment].place,
                       "another segment of the canvas takes the same place: one picture of the "
                       "whole canvas shows the last of them; each has a picture of its own (`eyrie "
                       "render --all`, or `&segment=` in the page's address)");

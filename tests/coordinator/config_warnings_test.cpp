@@ -238,6 +238,8 @@ TEST(EqcWarnings, NoteSegmentsThatTakeTheSamePlace) {
     EXPECT_EQ(found("viewport [ 0 0 .5 1 ]", "viewport [ .5 0 .5 1 ]"), "");
     EXPECT_EQ(found("eye [ LEFT CYCLOP ]", "eye [ RIGHT CYCLOP ]"), "")
         << "never in one picture, of a stereo view";
+    EXPECT_THAT(found("eye [ LEFT ]", "eye [ RIGHT ] } segment { channel \"b\" eye [ RIGHT ]"),
+                HasSubstr("takes the same place"));
 }
 
 TEST(EqcWarnings, NameFramesThatTheTasksLeaveOut) {
