@@ -38,11 +38,10 @@ absl::Status checkBand(const std::string& path, GDALRasterBandH band) {
     if (GDALDataTypeIsComplex(type))
         return invalid(path, fmt::format("band 1 holds complex numbers ({}), not heights",
                                          GDALGetDataTypeName(type)));
+    // Of other types a colour table is how programs show the heights.
     const bool mayBePicture = type == GDT_Byte || type == GDT_UInt16;
-    if (!mayBePicture)
-        return absl::OkStatus();  // the colours are how programs show the heights
     const GDALColorInterp colour = GDALGetRasterColorInterpretation(band);
-    if (colour == GCI_PaletteIndex || GDALGetRasterColorTable(band) != nullptr)
+    if (mayBePicture && (colour == GCI_PaletteIndex || GDALGetRasterColorTable(band) != nullptr))
         return invalid(path, "band 1 holds palette indices of a picture, not heights");
     if (colour >= GCI_RedBand && colour <= GCI_YCbCr_CrBand)
         return invalid(path, fmt::format("band 1 is a picture's ({}), not heights; give a DEM",
@@ -123,6 +122,9 @@ double metresPerUnit(GDALRasterBandH band, OGRSpatialReferenceH crs,
     }
     std::string name;
     if (const auto metres = metresPerUnitOf(crs, name)) {
+        if (!unit.empty())
+            notes.push_back(
+                fmt::format("height unit '{}' is unknown; taken for that of its CRS", unit));
         if (*metres != 1)
             notes.push_back(fmt::format(
                 "heights in {} turned to metres, by the vertical unit of its CRS", name));

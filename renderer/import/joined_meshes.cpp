@@ -89,9 +89,11 @@ std::uint64_t bytesOf(const std::vector<T>& values) {
     return values.size() * sizeof(T);
 }
 
-/// What a mesh takes here, without its images.
+/// What a mesh takes here.
 std::uint64_t bytesOf(const TriangleMesh& mesh) {
-    return bytesOf(mesh.positions) + bytesOf(mesh.triangles) + bytesOf(mesh.normals) +
+    std::uint64_t images = 0;
+    for (const mesh::Image& image : mesh.images) images += image.blocks.size();
+    return images + bytesOf(mesh.positions) + bytesOf(mesh.triangles) + bytesOf(mesh.normals) +
            bytesOf(mesh.colours) + bytesOf(mesh.textureCoordinates) + bytesOf(mesh.materialOf);
 }
 

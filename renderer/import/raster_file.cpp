@@ -72,7 +72,8 @@ absl::Status cannotBeOpened(const std::string& path, const char* wanted, QuietGd
     if (!hasBytes(path))
         return absl::NotFoundError(
             fmt::format("{}: no such file, or not readable ({})", path, error));
-    if (const std::string inside = rasterInside(path); !inside.empty())
+    const bool areSeveral = filesInside(path).size() > 1;
+    if (const std::string inside = areSeveral ? rasterInside(path) : ""; !inside.empty())
         return invalid(path, fmt::format("holds more than one file; name the raster that is meant, "
                                          "such as {}",
                                          inside));

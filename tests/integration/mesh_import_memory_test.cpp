@@ -64,7 +64,8 @@ TEST_F(MeshImportProcess, RefusesPolygonsBeforeTheyTakeMoreThanItMay) {
     EXPECT_LE(peak.bytes, kMemory);
 }
 
-/// 32 files of 7.5 MB, together less than it may take; their triangles are more than twice that.
+/// 32 files of 7.5 MB, together less than it may take; their meshes are half as much
+/// again as that.
 TEST_F(MeshImportProcess, RefusesFilesThatTogetherTakeMoreThanItMay) {
     constexpr std::uint32_t kTriangles = 150'000;
     std::string stl(80, ' ');

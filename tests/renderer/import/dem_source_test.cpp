@@ -142,6 +142,7 @@ TEST_F(DemSource, GoesByTheCrsWhereAUnitIsUnknown) {
         "<UnitType>Fuss</UnitType>"));
     ASSERT_TRUE(dem.ok()) << dem.status();
     EXPECT_FLOAT_EQ(dem->grid.at(2, 0), static_cast<float>(5 * 1200.0 / 3937));
+    EXPECT_THAT(dem->notes, testing::Contains(HasSubstr("'Fuss' is unknown")));
 }
 
 /// As EHdr has where a colour table lies beside it.
@@ -154,6 +155,8 @@ TEST_F(DemSource, TakesHeightsThatHaveColours) {
     EXPECT_EQ(dem->grid.at(2, 0), 5);
     expectRefused(virtualRaster("", colours, "Byte"), absl::StatusCode::kInvalidArgument,
                   "palette indices");
+    expectRefused(virtualRaster("", "<ColorInterp>Red</ColorInterp>", "Int16"),
+                  absl::StatusCode::kInvalidArgument, "a picture's");
 }
 
 /// Where a post's coordinates are on the earth by the CRS that a terrain says it has.
