@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 
 #include "coordinator/config/destinations.h"
-#include "coordinator/config/focus.h"
 #include "coordinator/config/idle_equalizers.h"
 #include "coordinator/config/overlaps.h"
 #include "coordinator/config/phases.h"
 #include "coordinator/config/pixels.h"
 #include "coordinator/config/queue_names.h"
+#include "coordinator/config/sights.h"
 #include "coordinator/config/tiny_zooms.h"
 #include "coordinator/config/torn_pictures.h"
 #include "coordinator/config/unseen.h"
@@ -285,7 +285,7 @@ private:
             findings_.note(compound.place,
                            "'DRAW' has no effect here: where a compound has children, they draw");
         if (own.tasks.draw)
-            addSights(own);
+            addSights(configuration_, resolved_.destinations, own, findings_);
     }
 
     std::string nameOf(const Frame& frame) const {
@@ -356,79 +356,6 @@ private:
                 return true;
         }
         return false;
-    }
-
-    /// How far beside a compound's part of the wall the pixels lie that are drawn of it, of several
-    /// apart: in pixels of the destination.
-    static fabric::Vec2 shiftOf(std::span<const fabric::Regridding> regriddings) {
-        fabric::Vec2 shift{0, 0};
-        fabric::Vec2 pixel{1, 1};
-        for (const fabric::Regridding& each : regriddings)
-            if (each.kind == fabric::Regridding::Kind::EveryNth) {
-                const fabric::Vec2 every(each.everyColumn, each.everyRow);
-                shift += pixel * (fabric::Vec2(each.firstColumn, each.firstRow) + .5 - every / 2.0);
-                pixel *= every;
-            } else {
-                pixel *= fabric::Vec2(each.of.width, each.of.height) /
-                         fabric::Vec2(each.width, each.height);
-            }
-        return shift;
-    }
-
-    /// Through the compound's part of the wall, where heads are in their places and as observers'
-    /// focus moves it.
-    void addSights(ResolvedCompound& own) {
-        if (!own.destination)
-            return;
-        const Destination& destination = resolved_.destinations[*own.destination];
-        const std::optional<Wall>& wall = own.wall ? own.wall : destination.wall;
-        if (!wall)
-            return;
-        const View& view =
-            configuration_.layouts[destination.index.layout].views[destination.index.view];
-        const EyePlaces places = eyePlaces(configuration_, view);
-        const Wall inFocus = scaled(
-            *wall, places.cyclop,
-            focusRatio(configuration_, resolved_.destinations, destination, fabric::Mat4(1.0)));
-        const fabric::Vec2 shift =
-            shiftOf(own.regriddings) /
-            fabric::Vec2(destination.pixelViewport.width, destination.pixelViewport.height);
-        const Viewport& share = own.viewport;
-        const Wall seen = config::part(
-            inFocus, {share.x + shift.x, share.y + shift.y, share.width, share.height});
-        using Eye = EyeSight::Eye;
-        const auto add = [&](bool isShown, Eye eye, const char* name, const fabric::Vec3& place) {
-            if (!isShown)
-                return;
-            own.sights.push_back({eye, sightThrough(seen, place)});
-            if (own.sights.back().sight)
-                return;
-            const Place& said = own.compound != nullptr ? own.place() : placeOf(destination);
-            const std::string blind =
-                fmt::format("the eye {} is not before the wall that it looks through", name);
-            if (isTracked(view))
-                findings_.warning(said, blind + ": it sees nothing until its head is moved there");
-            else
-                findings_.error(said, blind +
-                                          "; where the wall shows its back, exchange its "
-                                          "bottom and top, or its left and right");
-        };
-        add(own.eyes.cyclop, Eye::Cyclop, "CYCLOP", places.cyclop);
-        add(own.eyes.left, Eye::Left, "LEFT", places.left);
-        add(own.eyes.right, Eye::Right, "RIGHT", places.right);
-    }
-
-    /// Whether its observer is where a tracker says, not where the file has it.
-    bool isTracked(const View& view) const {
-        if (!view.observer)
-            return false;
-        const Observer& observer = configuration_.observers[*view.observer];
-        return !observer.vrpnTracker.empty() ||
-               (!observer.openCvCamera.empty() && observer.openCvCamera != "OFF");
-    }
-
-    const Place& placeOf(const Destination& shown) const {
-        return configuration_.canvases[shown.index.canvas].segments[shown.index.segment].place;
     }
 
     /// Names count within one tree; of several output frames with one name at one time, the first
@@ -502,7 +429,7 @@ private:
         if (!plain.eyes.isEmpty() && !plain.pixelViewport.isEmpty())
             plain.tasks = {true, true, false, false};
         if (plain.tasks.draw)
-            addSights(plain);
+            addSights(configuration_, resolved_.destinations, plain, findings_);
         resolved_.compounds.push_back(std::move(plain));
     }
 

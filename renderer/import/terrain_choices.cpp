@@ -16,6 +16,10 @@ namespace {
 
 constexpr std::uint64_t kLeastScratch = std::uint64_t{4} << 20;
 
+/// What pages under way take more where the ground is noise, every post of it a vertex, than where
+/// it is mountains; and what strips of a very wide grid do: measured.
+constexpr std::uint64_t kRoomForNoise = std::uint64_t{32} << 20;
+
 fabric::Mat4 objectFromLattice(const terrain::GridFrame& frame,
                                const terrain::HeightLattice& lattice) {
     fabric::Mat4 m(1.0);
@@ -127,7 +131,7 @@ std::uint64_t imageryBytes(const HeightSource& posts, std::uint64_t memoryBytes)
 
 std::uint64_t scratchBytes(const HeightSource& posts, const ImagerySource* imagery,
                            std::uint64_t memoryBytes) {
-    const std::uint64_t resident = residentBytes(posts, pictureBytes(imagery));
+    const std::uint64_t resident = residentBytes(posts, pictureBytes(imagery)) + kRoomForNoise;
     return std::max(kLeastScratch, memoryBytes > resident ? memoryBytes - resident : 0);
 }
 
