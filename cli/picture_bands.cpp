@@ -12,10 +12,6 @@
 namespace eyrie::cli {
 namespace {
 
-bool isTwoEyes(const coordinator::Shown& shown, compound::Stereo how) {
-    return !shown.eye && shown.stereo == how;
-}
-
 /// What is drawn from the top down before the next is.
 struct Pass {
     coordinator::Shown shown;
@@ -25,7 +21,7 @@ struct Pass {
 /// Two eyes one above the other come one after the other.
 std::vector<Pass> passesOf(const coordinator::FrameRequest& request) {
     const coordinator::Shown& shown = request.shown.front();
-    if (!isTwoEyes(shown, compound::Stereo::TopBottom))
+    if (shown.eyesUp() == 1)
         return {{shown}};
     Pass left{shown, request.height};
     left.shown.stereo = compound::Stereo::Configured;
@@ -55,8 +51,7 @@ void accumulateNext(fabric::FrameStatistics& sum, const fabric::FrameStatistics&
 
 PictureSize wholeSize(const coordinator::FrameRequest& request) {
     const coordinator::Shown& shown = request.shown.front();
-    return {request.width * (isTwoEyes(shown, compound::Stereo::SideBySide) ? 2 : 1),
-            request.height * (isTwoEyes(shown, compound::Stereo::TopBottom) ? 2 : 1)};
+    return {request.width * shown.eyesAcross(), request.height * shown.eyesUp()};
 }
 
 absl::StatusOr<DrawnBands> drawInBands(

@@ -144,7 +144,8 @@ FlightJudge::Judged FlightJudge::judge(const Frame& frame, const Expected& expec
     const truth::Pinhole& camera = expected.view.camera;
     const std::vector<float> depth = fabric::depthMetres(drawn.image);
     const double promised = drawn.statistics.tauAchievedPixels;
-    const double stretched = stretch(drawn.image.area, how_.width, how_.height);
+    const double stretched =
+        stretch({drawn.image.area.width, drawn.image.area.height}, how_.width, how_.height);
     ShownTriangles shown(reference_, camera,
                          lod::View(frame.camera, camera.width(), camera.height()), tauPixels,
                          remote_);

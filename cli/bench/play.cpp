@@ -31,15 +31,21 @@ absl::Status nothingSeen(const fabric::Box& bounds) {
                     bounds.max.z, ofSize.empty() ? "fly where the data are" : ofSize));
 }
 
+/// Of one eye's picture, where both eyes' are in one.
+fabric::PictureSides sidesOfEye(const fabric::PixelViewport& area,
+                                const coordinator::FrameRequest& asked) {
+    const coordinator::Shown& shown = asked.shown.front();
+    return {area.width / shown.eyesAcross(), area.height / shown.eyesUp()};
+}
+
 /// Errors in pixels of the size asked for.
 fabric::FrameStatistics ofSizeAskedFor(const coordinator::RenderedFrame& drawn,
                                        const coordinator::FrameRequest& asked) {
-    const fabric::PixelViewport& area = drawn.image.area;
-    const double stretched = stretch(area, asked.width, asked.height);
+    const fabric::PictureSides sides = sidesOfEye(drawn.image.area, asked);
+    const double stretched = stretch(sides, asked.width, asked.height);
     fabric::FrameStatistics statistics = drawn.statistics;
-    statistics.tauAchievedPixels =
-        statistics.tauAchievedPixels * stretched +
-        fabric::shapeErrorPixels(asked.width, asked.height, {area.width, area.height});
+    statistics.tauAchievedPixels = statistics.tauAchievedPixels * stretched +
+                                   fabric::shapeErrorPixels(asked.width, asked.height, sides);
     if (statistics.budget)
         statistics.budget->tauPixels *= stretched;
     return statistics;
@@ -77,8 +83,8 @@ public:
             const Milliseconds latency = frame.arrived - frame.begun;
             const Milliseconds interval = frame.arrived - std::exchange(last, frame.arrived);
             const Milliseconds taken = sequence.atOnce == 1 ? latency : interval;
-            const double stretched =
-                stretch(frame.drawn->image.area, request.width, request.height);
+            const double stretched = stretch(sidesOfEye(frame.drawn->image.area, request),
+                                             request.width, request.height);
             played_.frames.push_back(
                 {pass, seconds, taken.count(), ofSizeAskedFor(*frame.drawn, request),
                  latency.count(), stretched, showsSomething(*frame.drawn, pictures_.background())});

@@ -23,17 +23,17 @@ struct PlayOptions {
     std::vector<int> keeps = {};        ///< frames of a pass, ascending, for Played::kept
 };
 
-/// How many pixels of a picture of `width` x `height` one of `area`'s covers, the longer way.
-inline double stretch(const fabric::PixelViewport& area, int width, int height) {
-    return std::max(static_cast<double>(width) / area.width,
-                    static_cast<double>(height) / area.height);
+/// How many pixels of a picture of `width` x `height` one of `drawn`'s covers, the longer way.
+inline double stretch(const fabric::PictureSides& drawn, int width, int height) {
+    return std::max(static_cast<double>(width) / drawn.width,
+                    static_cast<double>(height) / drawn.height);
 }
 
 struct PlayedFrame {
     int pass = 0;        ///< 0: the first one, which loads; measured passes from 1
     double seconds = 0;  ///< of the flight
     /// From asking for the picture to having all of it; with several in flight, from the picture
-    /// before it (of a pass's first: from its begin).
+    /// before it (of a pass's first: from its begin), and they may come in bursts.
     double milliseconds = 0;
     /// Errors in pixels of the size asked for, even where a smaller picture was drawn.
     fabric::FrameStatistics statistics;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 /// Memory of this process and its children, and of the machine, as Linux counts it (proc(5): VmHWM,
 /// MemAvailable).
@@ -15,5 +16,10 @@ void resetPeakResidentBytes();
 
 /// What may still be taken without swapping, here or in this control group.
 std::uint64_t availableBytes();
+
+/// What is left of the limit of a control group of either version, whose files are in `folder`,
+/// which ends with a slash; what it holds of files that may be dropped is left, too. The largest
+/// number where there is no limit.
+std::uint64_t leftInControlGroup(const std::string& folder);
 
 }  // namespace eyrie::cli::bench

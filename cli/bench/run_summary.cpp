@@ -87,7 +87,37 @@ double shareWithinBudget(const Played& played) {
 
 double promised(const PlayedFrame& frame) { return frame.statistics.tauAchievedPixels; }
 
-PassSummary ofPass(const std::vector<PlayedFrame>& frames) {
+using Passes = std::vector<std::vector<PlayedFrame>>;
+
+/// The measured ones, in their order, or the first alone.
+Passes passesOf(const Played& played, bool first) {
+    Passes passes;
+    for (const PlayedFrame& frame : played.frames) {
+        if ((frame.pass == 0) != first)
+            continue;
+        passes.resize(std::max(passes.size(), static_cast<std::size_t>(std::max(1, frame.pass))));
+        passes.back().push_back(frame);
+    }
+    return passes;
+}
+
+/// The median. Several frames in flight may come in bursts, in which most follow each other at
+/// once: of these, the median of the means over as many in turn as are in flight.
+double medianTime(const Passes& passes, int framesInFlight) {
+    const auto inTurn = static_cast<std::size_t>(std::max(1, framesInFlight));
+    std::vector<double> means;
+    for (const std::vector<PlayedFrame>& pass : passes) {
+        const std::size_t many = std::min(inTurn, pass.size());
+        for (std::size_t i = 0; i + many <= pass.size(); ++i) {
+            double sum = 0;
+            for (std::size_t k = i; k < i + many; ++k) sum += pass[k].milliseconds;
+            means.push_back(sum / static_cast<double>(many));
+        }
+    }
+    return quantile(std::move(means), 0.5);
+}
+
+PassSummary ofPass(const std::vector<PlayedFrame>& frames, int framesInFlight) {
     std::vector<double> milliseconds;
     std::vector<double> taus;
     PassSummary pass;
@@ -99,20 +129,15 @@ PassSummary ofPass(const std::vector<PlayedFrame>& frames) {
         pass.points += share * static_cast<double>(frame.statistics.points);
     }
     pass.frame = percentiles(milliseconds);
+    pass.frame.p50 = medianTime({frames}, framesInFlight);
     pass.tauP95 = quantile(std::move(taus), 0.95);
     return pass;
 }
 
-std::vector<PassSummary> ofEachPass(const Played& played) {
-    std::vector<std::vector<PlayedFrame>> passes;
-    for (const PlayedFrame& frame : played.frames) {
-        if (frame.pass == 0)
-            continue;
-        passes.resize(std::max(passes.size(), static_cast<std::size_t>(frame.pass)));
-        passes[static_cast<std::size_t>(frame.pass) - 1].push_back(frame);
-    }
+std::vector<PassSummary> ofEachPass(const Passes& passes, int framesInFlight) {
     std::vector<PassSummary> result;
-    for (const std::vector<PlayedFrame>& pass : passes) result.push_back(ofPass(pass));
+    for (const std::vector<PlayedFrame>& pass : passes)
+        result.push_back(ofPass(pass, framesInFlight));
     return result;
 }
 
@@ -158,9 +183,12 @@ Percentiles percentiles(const std::vector<double>& values) {
 
 RunSummary summarize(const Played& played) {
     RunSummary summary;
+    const Passes measured = passesOf(played, false);
     summary.frame = percentiles(column(played, false, taken));
+    summary.frame.p50 = medianTime(measured, played.framesInFlight);
     summary.latency = percentiles(column(played, false, latency));
     summary.firstPass = percentiles(column(played, true, taken));
+    summary.firstPass.p50 = medianTime(passesOf(played, true), played.framesInFlight);
     summary.fpsMedian = 1000 / summary.frame.p50;
     summary.tauAchieved = percentiles(column(played, false, promised));
     summary.withinBudget = shareWithinBudget(played);
@@ -173,7 +201,7 @@ RunSummary summarize(const Played& played) {
     stages.vertices = median(played.stages, &fabric::StageMilliseconds::vertices);
     stages.fill = median(played.stages, &fabric::StageMilliseconds::fill);
     summary.means = meansOf(played);
-    summary.passes = ofEachPass(played);
+    summary.passes = ofEachPass(measured, played.framesInFlight);
     summary.trianglesMean = mean(played, triangles);
     summary.pointsMean = mean(played, points);
     for (const PlayedFrame& frame : played.frames) count(frame, summary);

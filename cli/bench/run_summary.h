@@ -25,7 +25,7 @@ Percentiles percentiles(const std::vector<double>& values);
 
 /// Of one measured pass: how passes spread is the noise.
 struct PassSummary {
-    Percentiles frame;     ///< milliseconds
+    Percentiles frame;     ///< milliseconds, as RunSummary::frame
     double tauP95 = 0;     ///< error that 95 in 100 frames do not promise more than, pixels
     double triangles = 0;  ///< mean
     double points = 0;     ///< mean
@@ -33,7 +33,9 @@ struct PassSummary {
 
 /// What is said of a flight played at one tau. Milliseconds.
 struct RunSummary {
-    Percentiles frame;                 ///< of the measured passes together
+    /// Of the measured passes together; with several frames in flight, which may come in bursts,
+    /// p50 is of means over as many in turn.
+    Percentiles frame;
     Percentiles latency;               ///< of these, from choosing the view to its picture
     std::vector<PassSummary> passes;   ///< of each measured pass
     Percentiles firstPass;             ///< of the pass that loads

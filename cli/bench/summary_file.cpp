@@ -148,8 +148,11 @@ WrittenReport reportOf(const Field& field) {
         report.sceneHash = bench.at("sceneHash").text();
     if (bench.has("configurationHash"))
         report.configurationHash = bench.at("configurationHash").text();
-    report.processor = field.at("machine").at("processor").text();
-    report.device = field.at("machine").at("device").text();
+    const Field machine = field.at("machine");
+    report.processor = machine.at("processor").text();
+    report.cores = machine.at("cores").count();
+    report.device = machine.at("device").text();
+    report.driver = machine.at("driver").text();
     for (const Field& run : field.at("runs").list()) report.runs.push_back(runOf(run));
     return report;
 }

@@ -45,7 +45,9 @@ struct WrittenReport {
     int height = 0;
     int frames = 0;
     std::string processor;
+    int cores = 0;
     std::string device;
+    std::string driver;
     std::string command;
     std::string occlusion;
     std::optional<std::string> seen;  ///< BenchFacts'; nothing in reports of before it was told

@@ -43,11 +43,8 @@ struct AnswerSize {
 AnswerSize answerSize(const coordinator::FrameRequest& request) {
     const fabric::PixelViewport drawn = request.drawnPart();
     const coordinator::Shown& shown = request.shown.front();
-    const auto times = [&](compound::Stereo stereo) {
-        return !shown.eye && shown.stereo == stereo ? 2 : 1;
-    };
-    return {std::int64_t{drawn.width} * times(compound::Stereo::SideBySide),
-            std::int64_t{drawn.height} * times(compound::Stereo::TopBottom)};
+    return {std::int64_t{drawn.width} * shown.eyesAcross(),
+            std::int64_t{drawn.height} * shown.eyesUp()};
 }
 
 /// Of a whole answer.

@@ -93,12 +93,12 @@ void BudgetKeeper::resize(const fabric::BudgetUse& use, double coarsestTau) {
 BudgetKeeper& BudgetKeepers::of(const FrameRequest& request) {
     const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
         return kept.width == request.width && kept.height == request.height &&
-               kept.shading == request.shading;
+               kept.shading == request.shading && kept.session == request.session;
     });
     if (found != kept_.end())
         kept_.splice(kept_.begin(), kept_, found);
     else
-        kept_.push_front({request.width, request.height, request.shading, {}});
+        kept_.push_front({request.width, request.height, request.shading, request.session, {}});
     if (kept_.size() > kMostKept)
         kept_.pop_back();
     return kept_.front().keeper;

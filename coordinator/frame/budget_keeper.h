@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <list>
 
 #include "coordinator/frame/cost_model.h"
@@ -58,7 +59,8 @@ private:
     int halvings_ = 0;
 };
 
-/// A keeper for each kind of frame that was asked for lately, by however many viewers.
+/// A keeper for each kind of frame that each session asked for lately: what one session looks at
+/// may take long while another's takes nothing.
 class BudgetKeepers {
 public:
     BudgetKeeper& of(const FrameRequest& request);
@@ -67,12 +69,13 @@ public:
     void forget() { kept_.clear(); }
 
 private:
-    static constexpr std::size_t kMostKept = 8;
+    static constexpr std::size_t kMostKept = 64;
 
     struct Kept {
         int width;
         int height;
         fabric::Shading shading;
+        std::uint64_t session;
         BudgetKeeper keeper;
     };
     std::list<Kept> kept_;  ///< the one used last comes first

@@ -16,6 +16,11 @@ struct Shown {
     std::optional<compound::Eye> eye;  ///< nothing: what the view shows
     compound::Stereo stereo = compound::Stereo::Configured;
 
+    /// Pictures of eyes in one, side by side and one above the other; each is of the size asked
+    /// for.
+    int eyesAcross() const { return !eye && stereo == compound::Stereo::SideBySide ? 2 : 1; }
+    int eyesUp() const { return !eye && stereo == compound::Stereo::TopBottom ? 2 : 1; }
+
     bool operator==(const Shown&) const = default;
 };
 

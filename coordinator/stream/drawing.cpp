@@ -65,7 +65,9 @@ std::optional<fabric::Vec3> liftOf(const ViewRequest& view, const fabric::SceneI
 fabric::PictureSides drawnSides(const coordinator::FrameRequest& asked,
                                 const fabric::PixelViewport& drawn) {
     const bool mayBeSmaller = asked.budgetMilliseconds && !drawn.isEmpty();
-    return mayBeSmaller ? fabric::PictureSides{drawn.width, drawn.height}
+    const coordinator::Shown& shown = asked.shown.front();
+    return mayBeSmaller ? fabric::PictureSides{drawn.width / shown.eyesAcross(),
+                                               drawn.height / shown.eyesUp()}
                         : fabric::PictureSides{asked.width, asked.height};
 }
 

@@ -38,7 +38,8 @@ coordinator::FrameRequest drawingOf(const ViewRequest& view, const fabric::Scene
 /// is not at all.
 std::optional<fabric::Vec3> liftOf(const ViewRequest& view, const fabric::SceneInfo* scene);
 
-/// Of the picture that was `asked` for, and `drawn` smaller than that where it was to hold a time.
+/// Of one eye's picture as it was `asked` for; smaller than that where it was to hold a time.
+/// `drawn` has both eyes' where they are asked for in one.
 fabric::PictureSides drawnSides(const coordinator::FrameRequest& asked,
                                 const fabric::PixelViewport& drawn);
 

@@ -336,8 +336,8 @@ private:
 }  // namespace
 
 double percentile(std::vector<double>& values, std::size_t hundredths) {
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * hundredths / 100);
+    const std::size_t rank = std::max<std::size_t>(1, (values.size() * hundredths + 99) / 100);
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
     std::nth_element(values.begin(), at, values.end());
     return *at;
 }

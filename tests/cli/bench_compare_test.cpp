@@ -117,6 +117,28 @@ TEST_F(CompareReports, ErrorsDifferByAnyDifferenceTrianglesByMoreThanOcclusionMa
     EXPECT_EQ(verdictOf(*more, "triangles, mean"), Verdict::More);
 }
 
+TEST_F(CompareReports, FramesOverTauAreCountedByPasses) {
+    const auto beyond = [](int passes) {
+        Report report = reportTaking(20, passes);
+        for (BenchRun& run : report.runs)
+            for (PlayedFrame& frame : run.played.frames)
+                if (frame.seconds < 0.15)
+                    frame.statistics.tauAchievedPixels = 2 * run.tauPixels;
+        return report;
+    };
+    const auto comparison = compared(beyond(5), beyond(3));
+    ASSERT_TRUE(comparison.ok()) << comparison.status();
+    EXPECT_EQ(verdictOf(*comparison, "frames over tau, a pass"), Verdict::Equal);
+}
+
+TEST_F(CompareReports, SayWhereCoresDiffer) {
+    WrittenReport more = written(reportTaking(20), "more.json").value();
+    more.cores += 14;
+    const auto comparison = compare(written(reportTaking(20), "a.json").value(), more, false);
+    ASSERT_TRUE(comparison.ok()) << comparison.status();
+    EXPECT_THAT(comparison->notes, testing::ElementsAre(HasSubstr("machines differ")));
+}
+
 TEST_F(CompareReports, WithoutOcclusionTrianglesAreHeldToTheLast) {
     Report before = reportTaking(20);
     before.facts.occlusion = "off";

@@ -26,7 +26,9 @@ public:
             return absl::UnavailableError("no renderer");
         coordinator::RenderedFrame frame;
         const int smaller = request.budgetMilliseconds ? 2 : 1;
-        frame.image = fabric::makeImage({0, 0, request.width / smaller, request.height / smaller},
+        const coordinator::Shown& shown = request.shown.front();
+        frame.image = fabric::makeImage({0, 0, shown.eyesAcross() * (request.width / smaller),
+                                         shown.eyesUp() * (request.height / smaller)},
                                         {}, request.wantsDepth);
         frame.statistics.nodes = 1;
         if (isSeen)
@@ -112,6 +114,27 @@ TEST(BenchPlay, TellsWhatTheBenchItselfTakesHoweverManyAreInFlight) {
             frames += frame.pass > 0 ? frame.milliseconds : 0;
         }
         EXPECT_GE(played->overheadPercent / 100 * frames, 40) << "a millisecond each";
+    }
+}
+
+TEST(BenchPlay, ErrorsOfTwoEyesInOnePictureAreOfAnEyesSize) {
+    FakePictures plain(1);
+    const auto expected = playWith(plain);
+    ASSERT_TRUE(expected.ok()) << expected.status();
+    for (const auto stereo : {compound::Stereo::SideBySide, compound::Stereo::TopBottom}) {
+        PlayOptions options;
+        options.request.shown.front().stereo = stereo;
+        FakePictures pictures(1);
+        const auto played = playWith(
+            pictures, [] {}, options);
+        ASSERT_TRUE(played.ok()) << played.status();
+        EXPECT_EQ(errors(*played), errors(*expected));
+        EXPECT_EQ(played->frames.front().stretch, 1);
+        options.request.budgetMilliseconds = 33;
+        const auto smaller = playWith(
+            pictures, [] {}, options);
+        ASSERT_TRUE(smaller.ok()) << smaller.status();
+        EXPECT_EQ(smaller->frames.front().stretch, 2);
     }
 }
 

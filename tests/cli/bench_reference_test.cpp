@@ -2,6 +2,7 @@
 // What `eyrie bench --reference` holds pictures against.
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <memory>
 
 #include <fmt/format.h>
@@ -412,6 +413,25 @@ TEST_F(ReferenceSources, AreComparedInColourAtTheLeastTauOfAllRuns) {
     EXPECT_EQ(planReference(plan, {}, {})->frames.finestTauPixels, kFinestTauPixels);
     plan.progressJson = true;
     EXPECT_EQ(progressStyle(plan), ProgressBar::Style::Json) << "quiet or not";
+}
+
+TEST(ControlGroup, HasLeftWhatItHoldsOfFiles) {
+    const test::TemporaryFolder folder;
+    const std::string root = folder.path("") + "/";
+    EXPECT_EQ(leftInControlGroup(root), std::numeric_limits<std::uint64_t>::max());
+    folder.write("memory.max", "max\n");
+    folder.write("memory.current", "4000\n");
+    EXPECT_EQ(leftInControlGroup(root), std::numeric_limits<std::uint64_t>::max());
+    folder.write("memory.max", "5000\n");
+    EXPECT_EQ(leftInControlGroup(root), 1000U);
+    folder.write("memory.stat", "anon 100\ninactive_file 3000\nactive_file 500\n");
+    EXPECT_EQ(leftInControlGroup(root), 4000U);
+    const test::TemporaryFolder first;
+    std::filesystem::create_directory(first.path("memory"));
+    first.write("memory/memory.limit_in_bytes", "5000\n");
+    first.write("memory/memory.usage_in_bytes", "4000\n");
+    first.write("memory/memory.stat", "inactive_file 1\ntotal_inactive_file 500\n");
+    EXPECT_EQ(leftInControlGroup(first.path("") + "/"), 1500U);
 }
 
 }  // namespace

@@ -66,6 +66,25 @@ TEST(RunSummary, TheFirstPassCountsForItselfOnly) {
     EXPECT_DOUBLE_EQ(summarize(played).pointsMean, 20);
 }
 
+/// Two in flight that follow each other at once, then wait: 100 frames of two passes in 1.5 s each.
+TEST(RunSummary, TheMedianOfFramesInFlightIsNoneOfTheGapsInABurst) {
+    Played played;
+    for (int pass = 0; pass < 3; ++pass)
+        for (int i = 0; i < 50; ++i) {
+            played.frames.push_back(frame(pass, 29));
+            played.frames.push_back(frame(pass, 1));
+        }
+    EXPECT_EQ(summarize(played).frame.p50, 1);
+    played.framesInFlight = 2;
+    const RunSummary summary = summarize(played);
+    EXPECT_EQ(summary.frame.p50, 15);
+    EXPECT_EQ(summary.frame.p95, 29);
+    EXPECT_EQ(summary.firstPass.p50, 15);
+    ASSERT_EQ(summary.passes.size(), 2U);
+    EXPECT_EQ(summary.passes[1].frame.p50, 15);
+    EXPECT_DOUBLE_EQ(summary.fpsMedian, 1000.0 / 15);
+}
+
 TEST(RunSummary, TheErrorIsThatOfTheWorstFrame) {
     Played played{{frame(0, 1), frame(1, 1, 0.9), frame(1, 1, 1.5)}, 0, {}};
     EXPECT_EQ(summarize(played).tauAchievedMax, 1.5);

@@ -316,6 +316,9 @@ TEST(BudgetKeepers, KeepKindsOfFramesApart) {
     FrameRequest other = request;
     other.width /= 2;
     EXPECT_EQ(keepers.of(other).plan(other).budget.lastTauPixels, 0);
+    FrameRequest anothers = request;
+    anothers.session = 7;
+    EXPECT_EQ(keepers.of(anothers).plan(anothers).budget.lastTauPixels, 0);
     EXPECT_EQ(keepers.of(request).plan(request).budget.lastTauPixels, 2);
     for (int i = 0; i < 100; ++i) {
         other.width = 100 + i;

@@ -6,11 +6,13 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "coordinator/stream/drawing.h"
 #include "eyrie/v1/look.pb.h"
 #include "eyrie/v1/viewer.pb.h"
 #include "tests/coordinator/fake_frame_source.h"
@@ -36,6 +38,22 @@ coordinator::Status plateauStatus() {
     coordinator::Status status = coordinator::readyStatus();
     status.sceneInfo.ground = std::make_shared<const std::vector<fabric::GroundGrid>>(1, plateau);
     return status;
+}
+
+TEST(DrawnSides, AreOneEyesWhereAPictureHasBoth) {
+    FrameRequest request;
+    request.budgetMilliseconds = 33;
+    const auto sides = [&](const fabric::PixelViewport& drawn) {
+        const fabric::PictureSides found = drawnSides(request, drawn);
+        return std::pair(found.width, found.height);
+    };
+    EXPECT_EQ(sides({0, 0, 640, 360}), std::pair(640, 360));
+    request.shown.front().stereo = compound::Stereo::SideBySide;
+    EXPECT_EQ(sides({0, 0, 1280, 360}), std::pair(640, 360));
+    request.shown.front().stereo = compound::Stereo::TopBottom;
+    EXPECT_EQ(sides({0, 0, 640, 720}), std::pair(640, 360));
+    request.shown.front().eye = compound::Eye::Left;
+    EXPECT_EQ(sides({0, 0, 640, 360}), std::pair(640, 360));
 }
 
 TEST(SessionState, SaysWhichHeightsAreExaggerated) {

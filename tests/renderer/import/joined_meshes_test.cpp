@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -110,6 +112,19 @@ TEST(JoinedMeshes, TellOfTheFirstFileThatCannotBeRead) {
     const std::string wrong = std::string(readMesh(paths[5]).status().message());
     for (int repeat = 0; repeat < 5; ++repeat)
         EXPECT_EQ(std::string(readMeshes(paths).status().message()), wrong);
+}
+
+TEST(JoinedMeshes, TakeNoMoreTogetherThanTheyMay) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("a.ply"),
+                    test::plyOf(test::tetrahedron(), test::Encoding::LittleEndian));
+    constexpr std::uint64_t kOfTwo = 400;  // four positions and four triangles are 144
+    const std::vector<std::string> paths(3, folder.file("a.ply"));
+    const auto two = readMeshes(std::span(paths).first(2), {}, {.memoryBytes = kOfTwo});
+    EXPECT_TRUE(two.ok()) << two.status();
+    const auto three = readMeshes(paths, {}, {.memoryBytes = kOfTwo});
+    EXPECT_EQ(three.status().code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_THAT(std::string(three.status().message()), HasSubstr("with it the files take"));
 }
 
 TEST(JoinedMeshes, AreNotReadToTheirEndWhenTheyAreCalledOff) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -48,6 +49,18 @@ std::vector<float> depthOf(const ReferenceSurface& surface, const Pinhole& camer
             depth.push_back(
                 static_cast<float>(surface.hitRange(camera.rayThrough(x + 0.5, y + 0.5)).first));
     return depth;
+}
+
+TEST(Percentile, IsTheNearestRank) {
+    for (const std::size_t count : {1U, 2U, 50U, 99U, 100U}) {
+        std::vector<double> values(count);
+        std::iota(values.begin(), values.end(), 1);
+        EXPECT_EQ(percentile(values, 99), std::ceil(0.99 * static_cast<double>(count)));
+        EXPECT_EQ(percentile(values, 50), std::ceil(0.5 * static_cast<double>(count)));
+    }
+    std::vector<double> values(150);
+    std::iota(values.rbegin(), values.rend(), 1);
+    EXPECT_EQ(percentile(values, 99), 149);
 }
 
 TEST(CompareDepth, FindsNoFaultWithTheReferenceItself) {
