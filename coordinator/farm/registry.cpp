@@ -17,7 +17,7 @@ absl::StatusOr<std::string> Registry::add(const std::string& address,
     std::string id;
     {
         const std::lock_guard lock(mutex_);
-        std::erase_if(records_, [&](const Record& r) { return r.entry.address == address; });
+        displace(address);
         const auto alive = std::count_if(records_.begin(), records_.end(),
                                          [](const Record& r) { return r.entry.isAlive(); });
         if (static_cast<std::size_t>(alive) >= options_.maxRenderers)
@@ -30,6 +30,15 @@ absl::StatusOr<std::string> Registry::add(const std::string& address,
     spdlog::info("{} registered at {}: {}", id, address, device.renderer);
     listeners_.notify();
     return id;
+}
+
+void Registry::displace(const std::string& address) {
+    for (const Record& record : records_)
+        if (record.entry.address == address && record.entry.isAlive())
+            displaced_.push_back({record.entry.id, address});
+    std::erase_if(records_, [&](const Record& r) { return r.entry.address == address; });
+    if (displaced_.size() > options_.maxDisplaced)
+        displaced_.pop_front();
 }
 
 void Registry::refuse(const std::string& address, const fabric::DeviceInfo& device,
@@ -70,6 +79,10 @@ Registry::Record* Registry::findAlive(const std::string& id) {
 
 absl::Status Registry::heartbeat(const std::string& id, Clock::time_point now) {
     const std::lock_guard lock(mutex_);
+    if (const auto found = std::ranges::find(displaced_, id, &Displaced::id);
+        found != displaced_.end())
+        return absl::FailedPreconditionError(fmt::format(
+            "another renderer has registered at {}; give each its own --listen", found->address));
     Record* record = findAlive(id);
     if (record == nullptr)
         return absl::NotFoundError(fmt::format("'{}' is not registered; register again", id));

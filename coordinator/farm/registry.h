@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -23,6 +24,7 @@ struct RegistryOptions {
     std::chrono::milliseconds deadShownFor{60'000};  ///< how long the dead and refused stay listed
     std::size_t maxRenderers = 256;                  ///< alive ones
     std::size_t maxRefused = 16;                     ///< listed; the latest
+    std::size_t maxDisplaced = 64;                   ///< remembered; the latest
 };
 
 /// The renderers that have registered: who is alive, and how to reach them.
@@ -68,6 +70,8 @@ public:
                 Clock::time_point now);
 
     /// NotFound when the renderer is not registered, or was given up: it is to register again.
+    /// FailedPrecondition when another took its place at its address while it was alive: did it
+    /// register again, they would displace each other for ever.
     absl::Status heartbeat(const std::string& id, Clock::time_point now);
 
     /// A heartbeat of one that wants to leave: it drains from now on. NotFound once it is gone.
@@ -95,14 +99,20 @@ private:
         Entry entry;
         Clock::time_point lastSeen;
     };
+    struct Displaced {
+        std::string id;
+        std::string address;
+    };
 
     Record* findAlive(const std::string& id);
     void forgive(Clock::time_point now);
     void trimRefused();
+    void displace(const std::string& address);
 
     const RegistryOptions options_;
     mutable std::mutex mutex_;  ///< guards what follows, but for listeners_
     std::vector<Record> records_;
+    std::deque<Displaced> displaced_;  ///< the latest last
     int nextId_ = 1;
     Clock::time_point lastLook_ = Clock::time_point::max();  ///< of expire()
     mutable Listeners listeners_;

@@ -67,6 +67,27 @@ TEST_F(RegistryTest, ADeadRenderersHeartbeatSaysToRegisterAgain) {
     EXPECT_EQ(registry_.entries().size(), 1U);
 }
 
+TEST_F(RegistryTest, WhoseAddressAnotherTakesIsNotToTakeItBack) {
+    const std::string first = add("a:1");
+    const std::string second = add("a:1");
+    const absl::Status displaced = registry_.heartbeat(first, kStart);
+    EXPECT_TRUE(absl::IsFailedPrecondition(displaced)) << displaced;
+    EXPECT_EQ(displaced.message(),
+              "another renderer has registered at a:1; give each its own --listen");
+    EXPECT_TRUE(registry_.heartbeat(second, kStart).ok());
+    registry_.markDead(second, "test", kStart);
+    add("a:1");
+    EXPECT_TRUE(absl::IsNotFound(registry_.heartbeat(second, kStart))) << "its place was free";
+}
+
+TEST_F(RegistryTest, TheLatestSixtyFourWhosePlaceWasTakenAreRemembered) {
+    const std::string first = add("a:1");
+    const std::string second = add("a:1");
+    for (int i = 0; i < 64; ++i) add("a:1");
+    EXPECT_TRUE(absl::IsNotFound(registry_.heartbeat(first, kStart)));
+    EXPECT_TRUE(absl::IsFailedPrecondition(registry_.heartbeat(second, kStart)));
+}
+
 TEST_F(RegistryTest, TheDeadAreListedForAMinute) {
     registry_.markDead(add("a:1"), "test", kStart);
     registry_.expire(kStart + seconds(60));
