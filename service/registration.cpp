@@ -19,6 +19,7 @@
 #include "eyrie/v1/registry_service.grpc.pb.h"
 #include "fabric/log.h"
 #include "fabric/version.h"
+#include "service/rejoin_pause.h"
 #include "wire/deadline.h"
 #include "wire/protocol.h"
 #include "wire/statistics.h"
@@ -85,6 +86,8 @@ public:
                 spdlog::info("the {} does not know this renderer any more: registering again",
                              peer_);
                 id_.clear();
+                sleepFor(rejoin_.after(Clock::now() - registeredAt_), stop);
+                notePresence();  // it has answered
                 continue;
             }
             if (!status.ok() && !stop.stop_requested()) {
@@ -131,6 +134,7 @@ private:
             call(&v1::RegistryService::Stub::RegisterRenderer, request, response, {});
         if (status.ok()) {
             id_ = response.renderer_id();
+            registeredAt_ = Clock::now();
             heartbeat_ = std::chrono::milliseconds(
                 std::clamp(response.heartbeat_milliseconds(), 10, 60'000));
             spdlog::info("registered with the {} as {}", peer_, id_);
@@ -197,6 +201,8 @@ private:
     const std::unique_ptr<v1::RegistryService::Stub> stub_;
     std::string id_;
     std::chrono::milliseconds heartbeat_{1000};
+    RejoinPause rejoin_;
+    Clock::time_point registeredAt_{};
     Clock::time_point lastSeen_ = Clock::now();
     bool away_ = false;
     access::Refusals told_ = {};  ///< to the coordinator

@@ -27,8 +27,9 @@ struct RegistrationOptions {
 };
 
 /// Offers a renderer to its coordinator and says that it is alive, as often as the coordinator
-/// wants, until `stop`. Registers again where the coordinator has forgotten it, and waits for one
-/// that is away, telling the log when it goes and when it is back.
+/// wants, until `stop`. Registers again where the coordinator has forgotten it, at once unless that
+/// happens again and again (RejoinPause), and waits for one that is away, telling the log when it
+/// goes and when it is back.
 ///
 /// After `stop` it says that it leaves, so that it gets no new tasks, waits until those in hand are
 /// done, and returns OK. Errors: Unavailable (away for longer than giveUpAfter), or why the
