@@ -3,7 +3,10 @@
 
 #include <chrono>
 #include <optional>
+#include <string_view>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "fabric/status.h"
 #include "renderer/draw/budget_choice.h"
@@ -67,7 +70,7 @@ private:
     draw::ViewTurns turns_;
     std::optional<OpenScene> open_;
     /// What the device had no memory for stays missing, and no error tells so again: until a scene
-    /// is opened every picture fails with this.
+    /// is opened every further picture fails with this.
     absl::Status incomplete_;
 };
 
@@ -90,7 +93,9 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
 absl::Status Renderer::Impl::unlessIncomplete() {
     absl::Status met = gl::takeGlError();
     if (absl::IsResourceExhausted(met))
-        incomplete_ = met;
+        incomplete_ = absl::FailedPreconditionError(
+            fmt::format("data are missing since an earlier picture: {}; open the scene again",
+                        std::string_view(met.message().data(), met.message().size())));
     return met;
 }
 

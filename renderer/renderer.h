@@ -81,10 +81,11 @@ public:
 
     /// Draws one channel. A page of terrain that cannot be read is no error: coarser data stand in
     /// for it, the statistics count it and the log names it. Errors: InvalidArgument (the task or
-    /// frame data), FailedPrecondition (no scene open), ResourceExhausted (limits, or the device's
-    /// memory), Internal (OpenGL met an error), DataLoss (of a mesh), Cancelled: `delivery.stop`
-    /// came before the picture was there, within a batch of triangles or at once where it waited
-    /// for pages. What has come of those stays; later pictures are what they would have been.
+    /// frame data), FailedPrecondition (no scene open, or data of it are missing since the device
+    /// had too little memory), ResourceExhausted (limits, or the device's memory), Internal (OpenGL
+    /// met an error), DataLoss (of a mesh), Cancelled: `delivery.stop` came before the picture was
+    /// there, within a batch of triangles or at once where it waited for pages. What has come of
+    /// those stays; later pictures are what they would have been.
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
                                                  const fabric::ChannelTask& task,
                                                  const fabric::Delivery& delivery = {});

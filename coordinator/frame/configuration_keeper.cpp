@@ -165,9 +165,14 @@ void ConfigurationKeeper::noteMissing(std::size_t ready) {
 void ConfigurationKeeper::tell() {
     wanted_ = given_ ? active_->pipes().size() : 0;
     std::vector<CanvasStatus> canvases = canvasesOf(*active_);
-    if (canvases == canvases_)
+    const bool isOther = active_->onDisplay() != onDisplay_;
+    if (canvases == canvases_ && !isOther)
         return;
     canvases_ = std::move(canvases);
+    if (isOther) {
+        onDisplay_ = active_->onDisplay();
+        ++displayRevision_;
+    }
     changed_();
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "coordinator/config/default_config.h"
+#include "coordinator/config/on_display.h"
 #include "coordinator/frame/active_configuration.h"
 #include "coordinator/frame/kept_configuration.h"
 #include "coordinator/frame/pipe_renderers.h"
@@ -23,8 +24,8 @@ namespace eyrie::coordinator {
 class ConfigurationKeeper {
 public:
     /// `layout` is shown at first on the first canvas of a made configuration, where it has it.
-    /// `changed` is called after each change of canvases(), by whoever made it. What was kept
-    /// before is set again where it can be; the log says what cannot.
+    /// `changed` is called after each change of canvases() or displayRevision(), by whoever made
+    /// it. What was kept before is set again where it can be; the log says what cannot.
     ConfigurationKeeper(std::optional<config::Configuration> given, std::string layout,
                         std::function<void()> changed, ConfigurationKeeping keeping = {});
 
@@ -48,6 +49,9 @@ public:
     absl::Status change(const std::function<absl::Status(ActiveConfiguration&)>& use);
 
     const std::vector<CanvasStatus>& canvases() const { return canvases_; }
+
+    /// Counts up when what is on display is another, as heads, observers and views make it.
+    std::uint64_t displayRevision() const { return displayRevision_; }
 
     /// How many renderers what is shown of a given configuration has pipes for; 0 of a made one,
     /// which has what there are.
@@ -75,6 +79,8 @@ private:
     std::shared_ptr<ActiveConfiguration> active_;
     std::shared_ptr<ActiveConfiguration> before_;  ///< the made one before; it may come back
     std::vector<CanvasStatus> canvases_;
+    config::OnDisplay onDisplay_;  ///< that displayRevision_ is of
+    std::uint64_t displayRevision_ = 0;
     std::size_t wanted_ = 0;
 };
 

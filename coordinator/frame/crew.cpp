@@ -30,6 +30,11 @@ bool saysGone(const absl::Status& status) {
     }
 }
 
+/// Its data could not be had or took too long: heartbeats tell whether it is alive.
+bool mayOpenLater(const absl::Status& status) {
+    return absl::IsAborted(status) || absl::IsDeadlineExceeded(status);
+}
+
 /// "dem (data/dem.eyt) has 123 bytes and sum 00…, with the others 124 bytes and sum 01…"; empty
 /// where both have the same files.
 std::string differenceOf(const fabric::Scene& scene, const std::vector<fabric::DataFile>& found,
@@ -289,7 +294,7 @@ void Crew::noteOpened(const std::string& id, std::uint64_t revision,
         spdlog::info("{} has the scene open", id);
     } else {
         spdlog::warn("{} cannot take part: {}", id, textOf(status));
-        if (!info.ok())
+        if (!info.ok() && !mayOpenLater(status))
             noteFailure(id, status);
     }
     changed_();
@@ -298,7 +303,7 @@ void Crew::noteOpened(const std::string& id, std::uint64_t revision,
 /// Whether it is another than before.
 bool Crew::noteOpenError(Seat& seat, const absl::Status& error) {
     const Member::Clock::time_point now = Member::Clock::now();
-    if (absl::IsAborted(error))
+    if (mayOpenLater(error))
         seat.retry.noteFailure(now);
     if (seat.openError == error)
         return false;

@@ -17,7 +17,7 @@
 namespace eyrie::coordinator {
 
 struct CrewOptions {
-    std::chrono::milliseconds openTimeout{120'000};  ///< a scene that takes longer is given up
+    std::chrono::milliseconds openTimeout{120'000};  ///< later it is asked once more
     PatienceOptions patience;
 };
 
@@ -49,8 +49,8 @@ public:
     /// Renderers take part again once they have opened it.
     void setScene(fabric::Scene scene);
 
-    /// Has those open it whose data could not be had, and whose time has come (OpenRetry). To be
-    /// called now and then.
+    /// Has those open it whose data could not be had or took longer than openTimeout, and whose
+    /// time has come (OpenRetry). To be called now and then.
     void openAgain(Member::Clock::time_point now);
 
     /// Those that have the scene of `revision` open and may have new tasks, in the order of

@@ -230,6 +230,7 @@ Status FramePipeline::status() const {
     status.sceneInfo = state.sceneInfo;
     status.sceneRevision = state.revision;
     status.canvases = planner_.canvases(state, crew_.ready(state.revision));
+    status.displayRevision = planner_.displayRevision();
     status.problem = problem(state);
     if (status.problem.empty())
         status.note = noteOf(static_cast<std::size_t>(state.ready), planner_.renderersWanted());

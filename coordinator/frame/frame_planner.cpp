@@ -184,6 +184,11 @@ std::vector<CanvasStatus> FramePlanner::canvases(const Crew::State& scene, const
     return configuration_.canvases();
 }
 
+std::uint64_t FramePlanner::displayRevision() const {
+    const std::lock_guard lock(mutex_);
+    return configuration_.displayRevision();
+}
+
 std::size_t FramePlanner::renderersWanted() const {
     const std::lock_guard lock(mutex_);
     return configuration_.renderersWanted();

@@ -26,7 +26,7 @@ public:
     using Clock = std::chrono::steady_clock;
 
     /// As for ConfigurationKeeper, but `changed` is called without locks held: whoever hears of a
-    /// change may ask for canvases().
+    /// change may ask for canvases() and displayRevision().
     FramePlanner(std::optional<config::Configuration> given, std::string layout,
                  std::function<void()> changed, ConfigurationKeeping keeping);
 
@@ -59,6 +59,7 @@ public:
     /// As the next frame would find them.
     std::vector<CanvasStatus> canvases(const Crew::State& scene,
                                        const std::vector<std::shared_ptr<Member>>& ready);
+    std::uint64_t displayRevision() const;
     std::size_t renderersWanted() const;
 
     /// As the configuration has it: config::framesUnderWay.

@@ -193,7 +193,8 @@ struct Status {
     std::string problem;
     /// What is missing though there is one, for a person to read; empty where nothing is.
     std::string note = {};
-    std::uint64_t sceneRevision = 0;  ///< of the scene and its data; counts up
+    std::uint64_t sceneRevision = 0;    ///< of the scene and its data; counts up
+    std::uint64_t displayRevision = 0;  ///< of what the configuration shows, and how; counts up
 };
 
 /// Where pictures come from. All functions may be called from any thread.

@@ -112,7 +112,12 @@ void Member::leave(std::function<void()> left) {
 
 void Member::open(std::shared_ptr<const fabric::Scene> scene, std::uint64_t revision,
                   std::chrono::milliseconds timeout, OpenDone done) {
+    wantedRevision_ = revision;
     post([this, scene = std::move(scene), revision, timeout, done = std::move(done)](Hold& hold) {
+        if (wantedRevision_ != revision) {
+            hold.end();
+            return done(absl::CancelledError("another scene is to be opened"));
+        }
         // On an error a renderer keeps the scene before, which is no use to the next frame.
         openRevision_ = 0;
         absl::StatusOr<fabric::SceneInfo> info =

@@ -60,7 +60,8 @@ public:
     bool addLate() { return late_++ == 0; }
     bool removeLate() { return --late_ == 0; }
 
-    /// Opens a scene, known from then on by `revision`.
+    /// Opens a scene, known from then on by `revision`. `done` is called with Cancelled where
+    /// another one is to be opened by the time it has its turn.
     void open(std::shared_ptr<const fabric::Scene> scene, std::uint64_t revision,
               std::chrono::milliseconds timeout, OpenDone done);
 
@@ -143,8 +144,9 @@ private:
     const fabric::DeviceInfo device_;
     const std::string node_;
     const std::shared_ptr<ChannelRenderer> renderer_;
-    std::uint64_t sentVersion_ = 0;               ///< of the frame data; the holder's own
-    std::atomic<std::uint64_t> openRevision_{0};  ///< of the scene it has open; 0: none
+    std::uint64_t sentVersion_ = 0;                 ///< of the frame data; the holder's own
+    std::atomic<std::uint64_t> openRevision_{0};    ///< of the scene it has open; 0: none
+    std::atomic<std::uint64_t> wantedRevision_{0};  ///< of that which it was last told to open
     std::atomic<int> late_{0};
     std::atomic<int> ended_{0};
     mutable std::mutex mutex_;  ///< guards what follows

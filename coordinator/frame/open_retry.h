@@ -8,8 +8,8 @@
 
 namespace eyrie::coordinator {
 
-/// When a renderer is asked once more to open a scene whose data could not be had: after a pause
-/// that doubles from failure to failure.
+/// When a renderer is asked once more to open a scene whose data could not be had, or took too
+/// long: after a pause that doubles from failure to failure.
 class OpenRetry {
 public:
     using Clock = std::chrono::steady_clock;

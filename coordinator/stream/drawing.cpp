@@ -14,13 +14,23 @@ namespace {
 /// About 1460 x 820.
 constexpr double kMostMovingSoftwarePixels = 1.2e6;
 
+bool draws(const coordinator::RendererStatus& renderer) {
+    return renderer.condition == coordinator::RendererCondition::Ready ||
+           renderer.condition == coordinator::RendererCondition::Late;
+}
+
 }  // namespace
 
 PictureSource pictureSource(const coordinator::Status& status) {
-    PictureSource source{status.scene, status.sceneInfo, {}, true, status.canvases};
+    PictureSource source{.scene = status.scene,
+                         .sceneInfo = status.sceneInfo,
+                         .renderers = {},
+                         .canvases = status.canvases,
+                         .sceneRevision = status.sceneRevision,
+                         .displayRevision = status.displayRevision};
     bool isSoftware = false;
     for (const coordinator::RendererStatus& renderer : status.renderers)
-        if (renderer.isAlive()) {
+        if (draws(renderer)) {
             source.renderers.push_back(renderer.id);
             isSoftware |= renderer.device.software;
         }

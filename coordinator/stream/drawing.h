@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,9 +16,11 @@ namespace eyrie::stream {
 struct PictureSource {
     fabric::Scene scene;
     fabric::SceneInfo sceneInfo;
-    std::vector<std::string> renderers;
-    bool isSoftware = true;  ///< a renderer's device is, such as llvmpipe, or there is none yet
+    std::vector<std::string> renderers;  ///< that are ready; who else comes and goes draws nothing
+    bool isSoftware = true;  ///< one of their devices is, such as llvmpipe, or there is none yet
     std::vector<coordinator::CanvasStatus> canvases;
+    std::uint64_t sceneRevision = 0;
+    std::uint64_t displayRevision = 0;
 
     bool operator==(const PictureSource&) const = default;
 };

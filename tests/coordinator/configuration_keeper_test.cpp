@@ -91,6 +91,30 @@ TEST(ConfigurationKeeper, ShowsTheChosenLayoutAgainOnceThereIsOne) {
     EXPECT_EQ(keeper.canvases().front().layout, "DB dynamic");
 }
 
+TEST(ConfigurationKeeper, TellsWhatMakesAnotherPictureAndNothingElse) {
+    int told = 0;
+    ConfigurationKeeper keeper(std::nullopt, "", [&] { ++told; });
+    keeper.with(renderers({"a", "b"}));
+    EXPECT_EQ(told, 1);
+    const std::uint64_t first = keeper.displayRevision();
+    const auto turn = [&](double x) {
+        return keeper.change(
+            [=](ActiveConfiguration& active) { return active.setHead("0", moved(x)); });
+    };
+    ASSERT_TRUE(turn(.25).ok());
+    EXPECT_EQ(told, 2);
+    EXPECT_EQ(keeper.displayRevision(), first + 1);
+    ASSERT_TRUE(turn(.25).ok());
+    EXPECT_EQ(told, 2) << "the head is where it was";
+    equalizer::Tuning frozen;
+    frozen.isFrozen = true;
+    ASSERT_TRUE(
+        keeper.change([&](ActiveConfiguration& active) { return active.tune("load.2D", frozen); })
+            .ok());
+    EXPECT_EQ(told, 2) << "who draws what is not seen";
+    EXPECT_EQ(keeper.displayRevision(), first + 1);
+}
+
 /// Three ranges, a pipe each.
 config::Configuration ranges() {
     config::Findings findings;

@@ -26,8 +26,9 @@ public:
 
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene,
                                                 Clock::time_point) override {
-        const std::lock_guard lock(mutex_);
+        std::unique_lock lock(mutex_);
         ++asked;
+        changed_.wait(lock, [this] { return !holdsOpening_ || cancelled_; });
         if (!openStatus_.ok())
             return openStatus_;
         opened.push_back(scene.objects.at(0).name);
@@ -86,6 +87,7 @@ public:
     void hang(bool hangs) { set(hangs_, hangs); }
     /// What it draws meanwhile does not arrive before the end of that.
     void holdPictures(bool holds) { set(holdsPictures_, holds); }
+    void holdOpening(bool holds) { set(holdsOpening_, holds); }
     void failToOpen(const absl::Status& status) { set(openStatus_, status); }
     void failToRender(const absl::Status& status) { set(renderStatus_, status); }
     void failToPick(const absl::Status& status) { set(pickStatus_, status); }
@@ -165,6 +167,7 @@ private:
     std::condition_variable_any changed_;
     int drawing_ = 0;
     bool hangs_ = false;
+    bool holdsOpening_ = false;
     bool holdsPictures_ = false;
     bool cancelled_ = false;
     std::optional<fabric::FrameBudget> budget_;

@@ -419,6 +419,37 @@ TEST(Viewer, DrawsAgainWhenTheRenderersChange) {
     EXPECT_EQ(frames.requests().size(), 2u);
 }
 
+TEST(Viewer, DrawsNothingForARendererThatOpensTheSceneUntilItIsReady) {
+    FakeFrameSource frames;
+    Browser browser(frames, moving(2));
+    browser.look(1);
+    ASSERT_TRUE(browser.nextFrame().has_value());
+    coordinator::Status status = coordinator::readyStatus();
+    status.renderers.push_back({"renderer-2", {}, {}, coordinator::RendererCondition::Opening});
+    frames.setStatus(status);
+    EXPECT_TRUE(browser.stateWhere([](const auto& s) { return s.renderers_size() == 2; }));
+    EXPECT_EQ(frames.requests().size(), 1u);
+    status.renderers.back().condition = coordinator::RendererCondition::Ready;
+    frames.setStatus(status);
+    EXPECT_TRUE(browser.nextFrame().has_value());
+    EXPECT_EQ(frames.requests().size(), 2u);
+}
+
+TEST(Viewer, DrawsAgainWhenTheSameSceneIsSetOrTheSameLayoutSeenOtherwise) {
+    FakeFrameSource frames;
+    Browser browser(frames, moving(2));
+    browser.look(1);
+    ASSERT_TRUE(browser.nextFrame().has_value());
+    coordinator::Status status = coordinator::readyStatus();
+    ++status.displayRevision;
+    frames.setStatus(status);
+    EXPECT_TRUE(browser.nextFrame().has_value()) << "the head has moved";
+    ++status.sceneRevision;
+    frames.setStatus(status);
+    EXPECT_TRUE(browser.nextFrame().has_value()) << "files were replaced";
+    EXPECT_EQ(frames.requests().size(), 3u);
+}
+
 TEST(Viewer, TellsWhyThereIsNoFrameAndRecoversByItself) {
     FakeFrameSource frames;
     frames.setDraw([](const FrameRequest&) -> absl::StatusOr<coordinator::RenderedFrame> {
