@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raise either when an importer makes something else of the same source.
-constexpr int kMeshImporterVersion = 22;
+constexpr int kMeshImporterVersion = 23;
 constexpr int kTerrainImporterVersion = 12;
 
 std::string lowerCaseEnding(const std::string& path) {

@@ -27,6 +27,7 @@
 #include "renderer/import/assimp_colours.h"
 #include "renderer/import/assimp_lights.h"
 #include "renderer/import/assimp_materials.h"
+#include "renderer/import/assimp_rounding.h"
 #include "renderer/import/assimp_values.h"
 #include "renderer/import/polygon.h"
 
@@ -60,13 +61,6 @@ bool isMorphed(const aiMesh* mesh) {
                                [](const aiAnimMesh* shape) { return shape->mWeight != 0; });
 }
 
-/// Whether the file's own coordinates are in single precision.
-bool isOfSinglePrecision(const AssimpFormat& format) {
-    constexpr std::array kExtensions = {".3ds", ".b3d", ".glb", ".gltf", ".iqm",  ".lwo",
-                                        ".lxo", ".md2", ".md3", ".mdc",  ".ms3d", ".stl"};
-    return std::ranges::count(kExtensions, format.extension) > 0;
-}
-
 /// Gathers what the nodes of a scene show.
 class SceneMeshes {
 public:
@@ -75,7 +69,8 @@ public:
           format_(format),
           text_(text),
           materials_(scene, format),
-          colours_(scene, format) {
+          colours_(scene, format),
+          isRounded_(!hasSingleCoordinates(format, text)) {
         hasColours_ = colours_.areAny();
         for (unsigned int i = 0; i < scene.mNumMeshes; ++i) {
             const aiMesh& mesh = *scene.mMeshes[i];
@@ -88,8 +83,8 @@ public:
 
 private:
     const aiMaterial* materialOf(const aiMesh& mesh) const;
-    absl::Status add(unsigned int number, const glm::dmat4& worldFromMesh);
-    absl::Status addVertices(const aiMesh& mesh, const glm::dmat4& worldFromMesh);
+    absl::Status add(unsigned int number, const AssimpPlace& place);
+    absl::Status addVertices(const aiMesh& mesh, const AssimpPlace& place);
     void addColours(unsigned int number);
     void addTextureCoordinates(const aiMesh& mesh);
     absl::Status addFaces(const aiMesh& mesh, std::uint32_t first, bool isMirrored);
@@ -105,7 +100,7 @@ private:
     AssimpColours colours_;
     bool hasNormals_ = false;
     bool hasColours_ = false;
-    double farthest_ = 0;  // metres of a vertex from its mesh's own origin
+    bool isRounded_;
     std::size_t cutAway_ = 0;
     std::size_t notOpaque_ = 0;  // vertices that are shown as if they were
     TriangleMesh result_;
@@ -119,7 +114,8 @@ const aiMaterial* SceneMeshes::materialOf(const aiMesh& mesh) const {
     return hasOwnMaterial(*material, format_) ? material : nullptr;
 }
 
-absl::Status SceneMeshes::addVertices(const aiMesh& mesh, const glm::dmat4& worldFromMesh) {
+absl::Status SceneMeshes::addVertices(const aiMesh& mesh, const AssimpPlace& place) {
+    const glm::dmat4& worldFromMesh = place.worldFromNode();
     const glm::dmat3 worldFromNormal = glm::transpose(glm::inverse(glm::dmat3(worldFromMesh)));
     for (unsigned int i = 0; i < mesh.mNumVertices; ++i) {
         const aiVector3D& v = mesh.mVertices[i];
@@ -130,8 +126,9 @@ absl::Status SceneMeshes::addVertices(const aiMesh& mesh, const glm::dmat4& worl
                 "repair the vertex",
                 mesh.mName.C_Str(), i, position.x, position.y, position.z));
         result_.positions.push_back(position);
-        farthest_ = std::max(farthest_,
-                             glm::length(glm::dvec3(worldFromMesh * glm::dvec4(v.x, v.y, v.z, 0))));
+        result_.roundingMetres =
+            std::max(result_.roundingMetres,
+                     place.roundingMetres(glm::length(glm::dvec3(v.x, v.y, v.z)), isRounded_));
         if (!hasNormals_)
             continue;
         const aiVector3D n = mesh.mNormals != nullptr ? mesh.mNormals[i] : aiVector3D();
@@ -212,20 +209,20 @@ void SceneMeshes::cutAway(const aiMesh& mesh, std::size_t firstTriangle) {
     result_.triangles.erase(cut, result_.triangles.end());
 }
 
-absl::Status SceneMeshes::add(unsigned int number, const glm::dmat4& worldFromMesh) {
+absl::Status SceneMeshes::add(unsigned int number, const AssimpPlace& place) {
     const aiMesh& mesh = *scene_.mMeshes[number];
     const std::size_t first = result_.positions.size();
     if (first + mesh.mNumVertices >= std::numeric_limits<std::uint32_t>::max())
         return absl::InvalidArgumentError(
             "found more than 2^32 vertices, all instances of meshes counted; import it in parts");
-    RETURN_IF_ERROR(addVertices(mesh, worldFromMesh));
+    RETURN_IF_ERROR(addVertices(mesh, place));
     if (hasColours_)
         addColours(number);
     if (materials_.areAny())
         addTextureCoordinates(mesh);
     const std::size_t firstTriangle = result_.triangles.size();
     RETURN_IF_ERROR(addFaces(mesh, static_cast<std::uint32_t>(first),
-                             glm::determinant(glm::dmat3(worldFromMesh)) < 0));
+                             glm::determinant(glm::dmat3(place.worldFromNode())) < 0));
     if (hasColours_)
         cutAway(mesh, firstTriangle);
     return absl::OkStatus();
@@ -267,16 +264,16 @@ void SceneMeshes::noteWhatIsLeftOut() {
 /// Assimp keeps coordinates in single precision. Of a model around 0 that loses nothing that one
 /// sees; of one that stands in the coordinates of a country it loses decimetres.
 void SceneMeshes::noteRounding() {
-    constexpr double kRounding = 1.0 / (1 << 24);
     constexpr double kSeen = 1e-5;  // of the longest side
     fabric::Box bounds;
     for (const fabric::Vec3& position : result_.positions) bounds.grow(position);
     const fabric::Vec3 size = bounds.size();
-    const double rounding = farthest_ * kRounding;
-    if (!isOfSinglePrecision(format_) && rounding > kSeen * std::max({size.x, size.y, size.z}))
+    const double rounding = result_.roundingMetres;
+    if (rounding > kSeen * std::max({size.x, size.y, size.z}))
         result_.notes.push_back(
-            fmt::format("coordinates are rounded, by up to {:.2g} m: they are far from 0, and of "
-                        "this format read in single precision; export the mesh nearer to 0, or as "
+            fmt::format("coordinates are rounded, by up to {:.2g} m: they, or what their "
+                        "nodes move them by, are far from 0, and read in single precision; export "
+                        "the mesh nearer to 0, or as "
                         "PLY with coordinates of the type double",
                         rounding));
 }
@@ -284,7 +281,7 @@ void SceneMeshes::noteRounding() {
 absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
     struct Placed {
         const aiNode* node;
-        glm::dmat4 worldFromNode;
+        AssimpPlace place;
     };
     const double metresPerUnit = metresPerUnitOf(scene_, format_, text_, result_.notes);
     const glm::dmat4 worldFromScene =
@@ -292,16 +289,17 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
     std::vector<Placed> waiting;
     if (scene_.mRootNode != nullptr)
         waiting.push_back(
-            {scene_.mRootNode, worldFromScene * toDouble(scene_.mRootNode->mTransformation)});
+            {scene_.mRootNode,
+             AssimpPlace(worldFromScene).child(toDouble(scene_.mRootNode->mTransformation))});
     while (!waiting.empty()) {
-        const auto [node, worldFromNode] = waiting.back();
+        const auto [node, place] = waiting.back();
         waiting.pop_back();
         for (unsigned int i = 0; i < node->mNumMeshes; ++i)
             if (node->mMeshes[i] < scene_.mNumMeshes)
-                RETURN_IF_ERROR(add(node->mMeshes[i], worldFromNode));
+                RETURN_IF_ERROR(add(node->mMeshes[i], place));
         for (unsigned int i = node->mNumChildren; i-- > 0;)
-            waiting.push_back({node->mChildren[i],
-                               worldFromNode * toDouble(node->mChildren[i]->mTransformation)});
+            waiting.push_back(
+                {node->mChildren[i], place.child(toDouble(node->mChildren[i]->mTransformation))});
     }
     if (result_.triangles.empty())
         return absl::InvalidArgumentError(

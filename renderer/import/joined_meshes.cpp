@@ -77,6 +77,7 @@ absl::Status append(TriangleMesh& whole, TriangleMesh part, const std::string& p
         for (std::uint32_t& corner : triangle) corner += static_cast<std::uint32_t>(first);
         whole.triangles.push_back(triangle);
     }
+    whole.roundingMetres = std::max(whole.roundingMetres, part.roundingMetres);
     fabric::append(whole.lights, part.lights);
     whole.droppedFaces += part.droppedFaces;
     for (const std::string& note : part.notes)

@@ -119,7 +119,7 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     report.nodes = tree.nodes.size();
     report.pointNodes = lod->pointNodes();
     report.stepMetres = packed.lattice.stepMetres;
-    report.errorMetres = packed.lattice.errorMetres();
+    report.errorMetres = packed.errorMetres();
     report.coarsestErrorMetres = lod->errorMetres.front();
     return report;
 }

@@ -47,7 +47,7 @@ struct MeshImportReport {
     std::vector<std::string> notes;      ///< what was odd in the sources; a line each
     std::uint64_t bytes = 0;             ///< of the .eym file
     double stepMetres = 0;               ///< of the lattice
-    double errorMetres = 0;              ///< bound on what rounding to the lattice moved
+    double errorMetres = 0;              ///< bound on what rounding moved: reading, and the lattice
     double coarsestErrorMetres = 0;      ///< of the root
     std::vector<mesh::LodLevel> levels;  ///< of detail, from the finest
     MeshImportSeconds seconds;

@@ -389,6 +389,7 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
     mesh::PackedMesh packed =
         gather(welded, packing.keys, hasColours, lattice, std::move(packing.source.triangles));
     packed.lights = std::move(packing.source.lights);
+    packed.roundingMetres = packing.source.roundingMetres;
     if (hasMaterials)
         gatherTextures(welded, packing, packed);
     if (options.keepsExact)

@@ -58,7 +58,7 @@ absl::Status nothingHasArea(std::uint64_t triangles, double stepMetres = 0);
 /// too).
 ///
 /// Depends on the mesh and the options alone. Every remaining vertex lies within
-/// lattice.errorMetres() of its source.
+/// errorMetres() of where its file states it.
 /// Preconditions: images are loaded (texture_files.h).
 /// Errors: Cancelled, InvalidArgument (coordinates too large, or nothing has any area).
 absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& counts,

@@ -71,6 +71,7 @@ struct ResultHeader {
     std::uint64_t textures = 0;
     std::uint64_t images = 0;
     std::uint64_t droppedFaces = 0;
+    double roundingMetres = 0;
 };
 
 /// Before the name and the bytes of a texture, or the blocks of an image.
@@ -200,6 +201,7 @@ bool writeResult(int fd, const absl::StatusOr<TriangleMesh>& result) {
     header.textures = result->textures.size();
     header.images = result->images.size();
     header.droppedFaces = result->droppedFaces;
+    header.roundingMetres = result->roundingMetres;
     return writeAll(fd, &header, sizeof(header)) && writeArray(fd, notes) &&
            writeArray(fd, result->positions) && writeArray(fd, result->triangles) &&
            writeArray(fd, result->normals) && writeArray(fd, result->colours) &&
@@ -245,6 +247,7 @@ absl::StatusOr<TriangleMesh> readResult(int fd, bool& isWhole) {
     if (header.code != 0)
         return absl::Status(static_cast<absl::StatusCode>(header.code), message);
     mesh.droppedFaces = header.droppedFaces;
+    mesh.roundingMetres = header.roundingMetres;
     for (std::size_t begin = 0; begin < notes.size();) {
         const std::size_t end = notes.find('\n', begin);
         mesh.notes.push_back(notes.substr(begin, end - begin));

@@ -48,6 +48,8 @@ struct TriangleMesh {
     std::vector<mesh::Material> materials;  ///< the first is plain, where there are any
     std::vector<TextureSource> textures;
     std::vector<mesh::Image> images;
+    /// Bound on how far reading has moved positions from those that the file states.
+    double roundingMetres = 0;
     fabric::FileLights lights;       ///< as source_lights.h has them
     std::uint64_t droppedFaces = 0;  ///< faces of the source with fewer than three corners
     std::vector<std::string> notes;  ///< what was odd in the source; a line each

@@ -248,9 +248,9 @@ std::vector<PointRange> pointRangesOf(const PackedMesh& mesh, const LodTree& lod
             for (const PointPrefix& prefix : sample->prefixes)
                 ranges.push_back(
                     {node, prefix.points,
-                     roundedUp(std::max(lod.errorMetres[node],
-                                        mesh.lattice.errorMetres() +
-                                            prefix.errorSteps * mesh.lattice.stepMetres))});
+                     roundedUp(std::max(
+                         lod.errorMetres[node],
+                         mesh.errorMetres() + prefix.errorSteps * mesh.lattice.stepMetres))});
     return ranges;
 }
 

@@ -33,6 +33,11 @@ struct PackedMesh {
     /// Where the source had each vertex, metres; empty unless that is to be kept. Vertices that
     /// differ in it only are not the same.
     std::vector<fabric::Vec3> exact;
+    /// Bound on how far those had moved already (import::TriangleMesh::roundingMetres).
+    double roundingMetres = 0;
+
+    /// Bound on how far a vertex is from where its file states it.
+    double errorMetres() const { return lattice.errorMetres() + roundingMetres; }
 
     bool operator==(const PackedMesh&) const = default;
 };

@@ -57,6 +57,14 @@ std::vector<Run> runsOf(const mesh::EymFile& file, std::uint32_t node, bool hide
     return runs;
 }
 
+/// How far the positions that a file keeps are from those that its source states: what its error
+/// has beside the lattice's, which it states to a float's precision, rounded up.
+double readingErrorMetres(const mesh::EymFile& file) {
+    const double lattice = file.lattice().errorMetres();
+    const double beside = file.finestErrorMetres() - lattice;
+    return beside > lattice / (1 << 23) ? beside : 0;
+}
+
 /// One ray's way through a mesh's tree. Everything in object space.
 class Walk {
 public:
@@ -70,7 +78,8 @@ public:
         const double coordinates =
             glm::length(ray.origin) + glm::length(bounds.min) + glm::length(bounds.max);
         rounding_ = 16 * std::numeric_limits<double>::epsilon() * coordinates;
-        error_ = rounding_ + (file.hasExactPositions() ? 0 : file.finestErrorMetres());
+        error_ = rounding_ +
+                 (file.hasExactPositions() ? readingErrorMetres(file) : file.finestErrorMetres());
         reach_ = file.finestErrorMetres() + rounding_;
         farthest_ = options.farthest;
     }

@@ -269,10 +269,10 @@ void Builder::record(const LodPart& part, std::size_t before, const NormalError&
             1.0, static_cast<double>(done_) / (2.0 * static_cast<double>(mesh_.triangles.size()))));
 }
 
-/// What the lattice rounds included, of the source's vertices and of points on triangles.
+/// What reading and the lattice round included, of the source's vertices and of points on
+/// triangles.
 double Builder::reachMetres(double steps) const {
-    const Lattice& lattice = mesh_.lattice;
-    return steps > 0 ? 2 * lattice.errorMetres() + steps * lattice.stepMetres : 0;
+    return steps > 0 ? 2 * mesh_.errorMetres() + steps * mesh_.lattice.stepMetres : 0;
 }
 
 LodTree Builder::build() {
@@ -283,7 +283,7 @@ LodTree Builder::build() {
     }
     lod_.errorMetres.reserve(errorSteps_.size());
     for (const double steps : errorSteps_)
-        lod_.errorMetres.push_back(mesh_.lattice.errorMetres() + steps * mesh_.lattice.stepMetres);
+        lod_.errorMetres.push_back(mesh_.errorMetres() + steps * mesh_.lattice.stepMetres);
     for (const double steps : reachSteps_) lod_.colourReachMetres.push_back(reachMetres(steps));
     return std::move(lod_);
 }

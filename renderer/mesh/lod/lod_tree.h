@@ -83,8 +83,8 @@ struct LodTree {
     std::vector<std::vector<Triangle>> geometry;
     std::vector<std::optional<PointSample>> points;  ///< only of nodes without triangles
     /// Bound on the distance of any point of the source's surface under the node to what stands for
-    /// it, and of any point of that to the source; what the lattice rounds included. Measured,
-    /// never below the children's.
+    /// it, and of any point of that to the source; what the lattice and reading rounded included.
+    /// Measured, never below the children's.
     std::vector<double> errorMetres;
     /// At any point of what stands for a node the colour, channel by channel and as displayed, and
     /// the opacity is within kColourTolerance of those that the source has within this, or within

@@ -16,7 +16,7 @@ eyrie_test(assimp_formats_test LABEL unit LINK eyrie::mesh_import assimp::assimp
 eyrie_test(assimp_reader_test LABEL unit
            SOURCES assimp_amf_test.cpp assimp_collada_test.cpp assimp_gltf_test.cpp
                    assimp_lights_test.cpp assimp_obj_test.cpp assimp_reader_test.cpp
-                   assimp_stl_test.cpp assimp_textures_test.cpp assimp_x3d_test.cpp
+                   assimp_rounding_test.cpp assimp_stl_test.cpp assimp_textures_test.cpp assimp_x3d_test.cpp
            LINK eyrie::mesh_import assimp::assimp)
 eyrie_test(companion_folder_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(dxf_text_test LABEL unit LINK eyrie::mesh_import)
