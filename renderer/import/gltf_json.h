@@ -1,21 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
+
+#include "access/printable.h"
+#include "fabric/utf8.h"
 
 /// A glTF's JSON, for the sources that look into it.
 namespace eyrie::import {
 
 using Json = nlohmann::json;
 
-/// Discarded where it is no JSON. Deeper parts are left out: no glTF has them.
+/// Discarded where it is no JSON. Deeper parts are left out: no glTF has them. Bytes
+/// that are no UTF-8, as of names in Latin-1, are question marks.
 inline Json parsedGltf(std::string_view json) {
     constexpr int kDeepest = 64;
     const auto isNear = [](int depth, Json::parse_event_t, Json&) { return depth < kDeepest; };
-    return Json::parse(json, isNear, false);
+    if (access::isUtf8(json))
+        return Json::parse(json, isNear, false);
+    std::string mended(json);
+    for (std::size_t i = 0; i < mended.size();) {
+        const std::size_t length = fabric::utf8Length(std::string_view(mended).substr(i));
+        if (length == 0)
+            mended[i] = '?';
+        i += std::max<std::size_t>(length, 1);
+    }
+    return Json::parse(mended, isNear, false);
 }
 
 /// The value of `key` in an object; null where there is none.

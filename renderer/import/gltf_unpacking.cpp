@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 
+#include "access/printable.h"
 #include "fabric/status.h"
 #include "renderer/import/gltf_chunks.h"
 #include "renderer/import/gltf_json.h"
@@ -378,8 +379,8 @@ absl::StatusOr<std::optional<std::string>> Unpacking::run(const GltfChunks& chun
     for (const char* list : {"buffers", "bufferViews", "accessors", "meshes"})
         if (!root_.contains(list) || !root_[list].is_array())
             root_[list] = Json::array();
-    const bool hasMark = chunks.json.starts_with(kByteOrderMark);
-    const bool isMended = mendGltf(root_, notes) || hasMark;
+    const bool isOdd = chunks.json.starts_with(kByteOrderMark) || !access::isUtf8(chunks.json);
+    const bool isMended = mendGltf(root_, notes) || isOdd;
     lookForGeometry();
     if (!isMended && !isNeeded())
         return std::nullopt;

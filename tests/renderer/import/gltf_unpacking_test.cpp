@@ -230,6 +230,20 @@ std::string codeOf(const std::vector<float>& vertices, std::size_t stride) {
     return code;
 }
 
+TEST(GltfUnpacking, ReadsNamesThatAreNoUtf8) {
+    const test::TemporaryFolder folder;
+    std::string text = mixedGltf();
+    test::writeFile(folder.file("m.gltf"), text);
+    const auto right = readWithAssimp(folder.file("m.gltf"));
+    ASSERT_TRUE(right.ok()) << right.status();
+    text.insert(1, "\"extras\":{\"na\xefve\":\"M\xfchle \xc3\xa4\"},");
+    test::writeFile(folder.file("m.gltf"), text);
+    const auto odd = readWithAssimp(folder.file("m.gltf"));
+    ASSERT_TRUE(odd.ok()) << odd.status();
+    EXPECT_EQ(odd->positions, right->positions);
+    EXPECT_EQ(odd->triangles, right->triangles);
+}
+
 TEST(GltfUnpacking, SaysWhatIsWrong) {
     const std::string code = codeOf({1, 2, 3, 4, 5, 6}, 12);
     const std::string sound = R"("byteStride":12,"count":2,"mode":"ATTRIBUTES")";
