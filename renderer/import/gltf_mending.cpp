@@ -102,6 +102,7 @@ bool mendLights(Json& root) {
         if (names.count(name) < 2)
             continue;
         names.erase(names.find(name));
+        name += fmt::format("_{}", i);
         while (names.contains(name)) name += '_';
         names.insert(name);
         (*nodes)[i]["name"] = name;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/assimp_lights.h"
 
+#include <chrono>
+#include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -15,6 +18,8 @@
 #include <gtest/gtest.h>
 
 #include "renderer/import/assimp_reader.h"
+#include "renderer/import/gltf_json.h"
+#include "renderer/import/gltf_mending.h"
 #include "tests/renderer/import/assimp_files.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
@@ -96,6 +101,27 @@ TEST(AssimpReader, HasALightAtEachNodeOfAGltfThatUsesIt) {
     for (const fabric::PointLight& light : mesh->lights.points)
         places.push_back(light.positionMetres.x - 1e6);
     EXPECT_THAT(places, testing::UnorderedElementsAre(0, 20, 30, 40));
+}
+
+/// What Assimp makes lights of goes by the names of nodes.
+TEST(GltfMending, GivesManyNodesOfOneNameTheirOwnAtOnce) {
+    constexpr std::size_t kLights = 20'000;
+    Json root;
+    root["scenes"] = Json::array({Json::object()});
+    root["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({{{"type", "point"}}});
+    for (std::size_t i = 0; i < kLights; ++i) {
+        root["scenes"][0]["nodes"].push_back(i);
+        Json node = {{"name", "Lamp"}};
+        node["extensions"]["KHR_lights_punctual"]["light"] = 0U;
+        root["nodes"].push_back(node);
+    }
+    std::vector<std::string> notes;
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_TRUE(mendGltf(root, notes));
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+    std::set<std::string> names;
+    for (const Json& node : root["nodes"]) names.insert(textAt(node, "name"));
+    EXPECT_EQ(names.size(), kLights);
 }
 
 TEST(AssimpReader, HasSpotsWithTheConesOfAGltf) {
