@@ -225,16 +225,6 @@ absl::StatusOr<PlyHeader> Parser::parse() {
     return std::move(header_);
 }
 
-/// Fewest bytes one element takes: in text, a digit and a separator a value.
-std::uint64_t leastBytes(const PlyElement& element, PlyEncoding encoding) {
-    if (encoding == PlyEncoding::Ascii)
-        return 2 * element.properties.size();
-    std::uint64_t bytes = 0;
-    for (const PlyProperty& property : element.properties)
-        bytes += sizeBytes(property.countType.value_or(property.type));
-    return bytes;
-}
-
 absl::Status checkCounts(const PlyHeader& header, std::uint64_t bodyBytes) {
     // The last value of a text needs no separator.
     std::uint64_t left = bodyBytes + (header.encoding == PlyEncoding::Ascii ? 1 : 0);
@@ -253,6 +243,15 @@ absl::Status checkCounts(const PlyHeader& header, std::uint64_t bodyBytes) {
 }
 
 }  // namespace
+
+std::uint64_t leastBytes(const PlyElement& element, PlyEncoding encoding) {
+    if (encoding == PlyEncoding::Ascii)
+        return 2 * element.properties.size();
+    std::uint64_t bytes = 0;
+    for (const PlyProperty& property : element.properties)
+        bytes += sizeBytes(property.countType.value_or(property.type));
+    return bytes;
+}
 
 std::size_t sizeBytes(PlyType type) {
     switch (type) {

@@ -39,6 +39,9 @@ struct PlyElement {
     bool operator==(const PlyElement&) const = default;
 };
 
+/// Fewest bytes one of an element takes: in text, a digit and a separator a value.
+std::uint64_t leastBytes(const PlyElement& element, PlyEncoding encoding);
+
 struct PlyHeader {
     PlyEncoding encoding = PlyEncoding::Ascii;
     std::vector<PlyElement> elements;       ///< in the order of the body

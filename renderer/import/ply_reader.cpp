@@ -115,6 +115,21 @@ absl::StatusOr<TriangleMesh> parse(std::string_view file, const std::string& pat
     return absl::InternalError("unknown PLY encoding");
 }
 
+/// Triangles that the strips of a file may have: each corner in what other elements leave of it
+/// makes one. Of text a corner takes two bytes or more.
+std::uint64_t mostOfStrips(const PlyHeader& header, std::uint64_t fileBytes) {
+    const PlyElement* const strips = header.find("tristrips");
+    if (strips == nullptr)
+        return 0;
+    const PlyProperty* const corners = findCorners(*strips);
+    if (header.encoding == PlyEncoding::Ascii || corners == nullptr)
+        return (fileBytes - header.bodyOffset) / 2;
+    std::uint64_t left = fileBytes - header.bodyOffset;
+    for (const PlyElement& element : header.elements)
+        left -= element.count * leastBytes(element, header.encoding);
+    return left / sizeBytes(corners->type);
+}
+
 std::string_view textOf(const mesh::MappedFile& file) {
     const auto bytes = file.bytes();
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -147,11 +162,9 @@ absl::StatusOr<PlySize> measurePly(const std::string& path) {
     RETURN_IF_ERROR(fabric::withContext(checkIsMesh(*header), path));
     const PlyElement* const faces = header->find("face");
     const std::uint64_t bytes = file.bytes().size();
-    // A strip's corner takes two bytes or more, and makes one triangle.
     return PlySize{header->find("vertex")->count,
-                   (faces != nullptr ? faces->count : 0) +
-                       (header->find("tristrips") != nullptr ? bytes / 2 : 0),
-                   bytes, TextureLayout(*header).isUsed()};
+                   (faces != nullptr ? faces->count : 0) + mostOfStrips(*header, bytes), bytes,
+                   TextureLayout(*header).isUsed()};
 }
 
 std::vector<std::string> texturesOfPly(std::string_view file, const std::string& path) {

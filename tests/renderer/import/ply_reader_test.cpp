@@ -389,6 +389,19 @@ TEST(PlyReader, TurnsEveryOtherTriangleOfAStripAndRestartsAtMinusOne) {
     EXPECT_EQ(parsed(text).triangles, (Triangles{{0, 1, 2}, {2, 1, 0}}));
 }
 
+/// Four of 12 bytes and one list: its count, and six corners that at most are one triangle each.
+TEST(PlyReader, TakesStripsForAsManyTrianglesAsTheyHaveRoomFor) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.ply"),
+                    "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\n"
+                    "property float y\nproperty float z\nelement tristrips 1\n"
+                    "property list int int vertex_indices\nend_header\n" +
+                        std::string(4 * 12 + 4 + 6 * 4, '\0'));
+    const auto size = measurePly(folder.file("m.ply"));
+    ASSERT_TRUE(size.ok()) << size.status();
+    EXPECT_EQ(size->faces, 6U);
+}
+
 TEST(PlyReader, StopsWhenAsked) {
     std::stop_source stop;
     stop.request_stop();
