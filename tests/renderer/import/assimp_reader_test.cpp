@@ -60,9 +60,9 @@ TEST(AssimpReader, SaysWhereCoordinatesLoseWhatOneSees) {
         EXPECT_TRUE(mesh.ok()) << mesh.status();
         return mesh.ok() ? mesh->notes : std::vector<std::string>();
     };
-    EXPECT_THAT(notesAt(100, "m.off"), IsEmpty());
+    EXPECT_THAT(notesAt(10, "m.off"), IsEmpty());
     EXPECT_THAT(notesAt(5e5, "m.off"),
-                ElementsAre(testing::AllOf(HasSubstr("by up to 0.03 m"), HasSubstr("PLY"))));
+                ElementsAre(testing::AllOf(HasSubstr("by up to 0.21 m"), HasSubstr("PLY"))));
 }
 
 TEST(AssimpReader, CountsMaterialsThatEmitMoreThanTheyReflect) {
