@@ -163,9 +163,10 @@ std::uint64_t bytesOf(const std::vector<std::string>& paths) {
 absl::Status exceedsMemory(const std::string& name, std::uint64_t needed,
                            const MeshImportOptions& options, const std::string& remedy) {
     return absl::ResourceExhaustedError(fmt::format(
-        "{}: importing it takes about {} MiB of memory, of which it may use {}; {}, or allow more "
+        "{}: importing it takes about {} MiB of memory, of which it may use {}; {}allow more "
         "memory",
-        name, (needed >> 20) + 1, options.memoryBytes >> 20, remedy));
+        name, (needed >> 20) + 1, options.memoryBytes >> 20,
+        remedy.empty() ? remedy : remedy + ", or "));
 }
 
 /// Of PLY files, as their headers have it.
@@ -176,6 +177,7 @@ absl::StatusOr<PlySize> measureAll(const std::vector<std::string>& paths) {
         all.vertices += size.vertices;
         all.faces += size.faces;
         all.fileBytes += size.fileBytes;
+        all.splitVertices += size.splitVertices;
         all.isTextured = all.isTextured || size.isTextured;
     }
     return all;
@@ -189,7 +191,7 @@ absl::StatusOr<std::optional<std::uint64_t>> partsOf(const std::vector<std::stri
         return std::nullopt;
     ASSIGN_OR_RETURN(const PlySize size, measureAll(paths));
     const std::uint64_t needed =
-        importBytes(size.faces, size.vertices, size.fileBytes, options, size.isTextured);
+        importBytes(size.faces, size.splitVertices, size.fileBytes, options, size.isTextured);
     if (needed + kProgramBytes <= options.memoryBytes)
         return std::nullopt;
     const std::uint64_t atOnce =
@@ -206,16 +208,23 @@ absl::StatusOr<std::optional<std::uint64_t>> partsOf(const std::vector<std::stri
     return atOnce;
 }
 
+/// What else than more memory makes a mesh of so many triangles fit; nothing for a PLY of triangles
+/// with textures, of which parts have none.
+std::string remedyFor(const std::vector<std::string>& paths, std::uint64_t triangles) {
+    if (!std::all_of(paths.begin(), paths.end(), isPly))
+        return "convert it to PLY, which is imported part by part";
+    const absl::StatusOr<PlySize> size = measureAll(paths);
+    if (size.ok() && size->isTextured && triangles <= size->faces)
+        return "";
+    return "triangulate it before export, so that it is imported part by part";
+}
+
 absl::StatusOr<MeshImportReport> importWhole(const std::vector<std::string>& paths,
                                              mesh::OutputFile& out, MeshImportOptions options,
                                              const ImportControl& control) {
-    const std::string remedy = std::all_of(paths.begin(), paths.end(), isPly)
-                                   ? "triangulate it before export, so that it is imported part by "
-                                     "part"
-                                   : "convert it to PLY, which is imported part by part";
     const std::uint64_t bytes = bytesOf(paths);
     if (options.memoryBytes != 0 && bytes > options.memoryBytes)
-        return exceedsMemory(nameOf(paths), bytes, options, remedy);
+        return exceedsMemory(nameOf(paths), bytes, options, remedyFor(paths, 0));
     const bool isByFormat = options.pack.normals == NormalSource::ByFormat;
     Stopwatch watch;
     ASSIGN_OR_RETURN(TriangleMesh source,
@@ -227,7 +236,8 @@ absl::StatusOr<MeshImportReport> importWhole(const std::vector<std::string>& pat
                                        !source.textureCoordinates.empty());
     for (const mesh::Image& image : source.images) needed += image.blocks.size();
     if (options.memoryBytes != 0 && needed > options.memoryBytes)
-        return exceedsMemory(nameOf(paths), needed, options, remedy);
+        return exceedsMemory(nameOf(paths), needed, options,
+                             remedyFor(paths, source.triangles.size()));
     const double readSeconds = watch.lap();
     auto report = build(std::move(source), out, options, control, hash);
     if (!report.ok())

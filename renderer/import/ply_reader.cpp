@@ -162,9 +162,13 @@ absl::StatusOr<PlySize> measurePly(const std::string& path) {
     RETURN_IF_ERROR(fabric::withContext(checkIsMesh(*header), path));
     const PlyElement* const faces = header->find("face");
     const std::uint64_t bytes = file.bytes().size();
-    return PlySize{header->find("vertex")->count,
-                   (faces != nullptr ? faces->count : 0) + mostOfStrips(*header, bytes), bytes,
-                   TextureLayout(*header).isUsed()};
+    const TextureLayout layout(*header);
+    PlySize size{header->find("vertex")->count,
+                 (faces != nullptr ? faces->count : 0) + mostOfStrips(*header, bytes), bytes,
+                 layout.isUsed()};
+    const bool isSplit = layout.isUsed() && layout.isByFace();
+    size.splitVertices = std::max(size.vertices, isSplit ? 3 * size.faces : 0);
+    return size;
 }
 
 std::vector<std::string> texturesOfPly(std::string_view file, const std::string& path) {

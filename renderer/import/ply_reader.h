@@ -52,6 +52,8 @@ struct PlySize {
     std::uint64_t faces = 0;  ///< strips count as many as they may have triangles
     std::uint64_t fileBytes = 0;
     bool isTextured = false;
+    /// As many as the vertices may become where faces lie in images: of triangles one a corner.
+    std::uint64_t splitVertices = 0;
 };
 /// Errors: those of readPly but for what lies in the body.
 absl::StatusOr<PlySize> measurePly(const std::string& path);

@@ -402,6 +402,24 @@ TEST(PlyReader, TakesStripsForAsManyTrianglesAsTheyHaveRoomFor) {
     EXPECT_EQ(size->faces, 6U);
 }
 
+TEST(PlyReader, CountsTheVerticesThatPlacesOfFacesMayMake) {
+    const test::TemporaryFolder folder;
+    const auto measured = [&](const std::string& comment) {
+        test::writeFile(folder.file("m.ply"),
+                        "ply\nformat ascii 1.0\n" + comment +
+                            "element vertex 3\nproperty float x\nproperty float y\n"
+                            "property float z\nelement face 2\n"
+                            "property list uchar int vertex_indices\n"
+                            "property list uchar float texcoord\nend_header\n"
+                            "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 0 1\n"
+                            "3 0 2 1 6 1 1 0 1 1 0\n");
+        return measurePly(folder.file("m.ply"));
+    };
+    EXPECT_EQ(measured("comment TextureFile a.png\n")->splitVertices, 6U);
+    EXPECT_EQ(measured("comment TextureFile a.png\n")->vertices, 3U);
+    EXPECT_EQ(measured("")->splitVertices, 3U);
+}
+
 TEST(PlyReader, StopsWhenAsked) {
     std::stop_source stop;
     stop.request_stop();
