@@ -13,7 +13,6 @@
 #include "cli/bench/resident_memory.h"
 #include "coordinator/frame/frame_sequence.h"
 #include "coordinator/frame/problem.h"
-#include "fabric/smaller_picture.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli::bench {

@@ -11,6 +11,7 @@
 
 #include "cli/picture_source.h"
 #include "fabric/flight.h"
+#include "fabric/smaller_picture.h"
 #include "fabric/statistics.h"
 
 /// Playing a flight and taking its frames' times.
