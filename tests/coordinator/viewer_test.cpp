@@ -443,7 +443,9 @@ TEST(Viewer, DrawsAgainWhenTheSameSceneIsSetOrTheSameLayoutSeenOtherwise) {
     coordinator::Status status = coordinator::readyStatus();
     ++status.displayRevision;
     frames.setStatus(status);
-    EXPECT_TRUE(browser.nextFrame().has_value()) << "the head has moved";
+    const auto moved = browser.nextFrame();
+    ASSERT_TRUE(moved.has_value()) << "the head has moved";
+    browser.acknowledge(moved->frame_number());
     ++status.sceneRevision;
     frames.setStatus(status);
     EXPECT_TRUE(browser.nextFrame().has_value()) << "files were replaced";
