@@ -39,6 +39,11 @@ void Progress::sourceChanged() {
     retryAt_.reset();
 }
 
+void Progress::seenOtherwise(Clock::time_point now) {
+    sourceChanged();
+    wantedSince_ = now;
+}
+
 bool Progress::hasRested(Clock::time_point now) const {
     return now >= wantedSince_ + options_.restDelay;
 }

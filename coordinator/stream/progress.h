@@ -52,6 +52,8 @@ public:
 
     /// What pictures are made from has changed: the view is to be drawn again.
     void sourceChanged();
+    /// So has what the view is seen by, as heads do that move: it does not rest.
+    void seenOtherwise(Clock::time_point now);
 
     /// The view has not moved for a while.
     bool hasRested(Clock::time_point now) const;

@@ -339,7 +339,10 @@ void Session::Impl::composeStates(std::unique_lock<std::mutex>& lock) {
     const bool isOther =
         source_.has_value() ? !(*source_ == source) : source.sceneInfo.ground != nullptr;
     if (isOther) {
-        progress_.sourceChanged();
+        if (source_ && source_->displayRevision != source.displayRevision)
+            progress_.seenOtherwise(Clock::now());
+        else
+            progress_.sourceChanged();
         for (const auto& seat : seats_) seat->outbox.dropStill();
     }
     // So may a screen have been looked for before there was a first state to compare with.

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "access/printable.h"
@@ -17,18 +18,21 @@ namespace eyrie::import {
 using Json = nlohmann::json;
 
 /// Discarded where it is no JSON. Deeper parts are left out: no glTF has them. Bytes
-/// that are no UTF-8, as of names in Latin-1, are question marks.
+/// that are no UTF-8, as of names in Latin-1, are written as URIs do, with percents: so files are
+/// found by them.
 inline Json parsedGltf(std::string_view json) {
     constexpr int kDeepest = 64;
     const auto isNear = [](int depth, Json::parse_event_t, Json&) { return depth < kDeepest; };
     if (access::isUtf8(json))
         return Json::parse(json, isNear, false);
-    std::string mended(json);
-    for (std::size_t i = 0; i < mended.size();) {
-        const std::size_t length = fabric::utf8Length(std::string_view(mended).substr(i));
+    std::string mended;
+    while (!json.empty()) {
+        const std::size_t length = fabric::utf8Length(json);
         if (length == 0)
-            mended[i] = '?';
-        i += std::max<std::size_t>(length, 1);
+            mended += fmt::format("%{:02X}", static_cast<unsigned char>(json.front()));
+        else
+            mended += json.substr(0, length);
+        json.remove_prefix(std::max<std::size_t>(length, 1));
     }
     return Json::parse(mended, isNear, false);
 }

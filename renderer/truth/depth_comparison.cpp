@@ -87,10 +87,14 @@ private:
                 pixels = leastAround(x + 0.5, y + 0.5, depth_[index(x, y)]);
     }
 
-    /// The displacement above which LookAround::Farthest looks.
+    /// The displacement above which LookAround::Farthest looks: of two in a hundred, or of one.
     double farthestOnly() const {
         std::vector<double> known = knownDisplacements();
-        return known.empty() ? 0 : std::min(percentile(known, 98), suspects_.abovePixels);
+        if (known.empty())
+            return 0;
+        const auto at = known.begin() + static_cast<std::ptrdiff_t>((known.size() - 1) * 98 / 100);
+        std::nth_element(known.begin(), at, known.end());
+        return std::min(*at, suspects_.abovePixels);
     }
 
     std::vector<double> knownDisplacements() const {

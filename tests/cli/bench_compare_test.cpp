@@ -229,7 +229,7 @@ TEST_F(CompareReports, WhatDoesNotRepeatIsJudgedByHowPassesSpread) {
         ASSERT_TRUE(same.ok()) << same.status();
         EXPECT_EQ(countBeyondNoise(*same), 0) << table(*same);
         EXPECT_EQ(verdictOf(*same, "error promised, p95"), Verdict::WithinNoise);
-        EXPECT_EQ(verdictOf(*same, "frames over tau"), Verdict::NotRepeated);
+        EXPECT_EQ(verdictOf(*same, "frames over tau, a pass"), Verdict::NotRepeated);
         const auto more = compared(before, reportOfFreeTau(milliseconds, renderers, 2, 1.3));
         ASSERT_TRUE(more.ok()) << more.status();
         EXPECT_EQ(verdictOf(*more, "error promised, p95"), Verdict::More);

@@ -178,6 +178,30 @@ TEST(Viewer, KeepsAFrameTimeUntilTheViewRestsAndThenDrawsWhatWasAskedFor) {
     EXPECT_FALSE(frames.requests()[1].budgetMilliseconds.has_value());
 }
 
+TEST(Viewer, KeepsAFrameTimeWhileAHeadMovesBeforeAViewAtRest) {
+    FakeFrameSource frames;
+    frames.setDraw(drawnAt(4));
+    Browser browser(frames, resting());
+    browser.send(viewIn(33));
+    for (int i = 0; i < 3; ++i) {
+        const auto frame = browser.nextFrame();
+        ASSERT_TRUE(frame.has_value());
+        browser.acknowledge(frame->frame_number());
+    }
+    ASSERT_EQ(frames.requests().size(), 2U);
+    coordinator::Status status = coordinator::readyStatus();
+    ++status.displayRevision;
+    frames.setStatus(status);
+    for (int i = 0; i < 2; ++i) {
+        const auto frame = browser.nextFrame();
+        ASSERT_TRUE(frame.has_value());
+        EXPECT_EQ(frame->width(), i == 0 ? 32 : 64);
+        browser.acknowledge(frame->frame_number());
+    }
+    EXPECT_EQ(frames.requests()[2].budgetMilliseconds, 33);
+    EXPECT_FALSE(frames.requests()[3].budgetMilliseconds.has_value());
+}
+
 /// Or it would follow the time that frames take.
 TEST(Viewer, KeepsNoFrameTimeWhereTheCutIsFrozen) {
     FakeFrameSource frames;

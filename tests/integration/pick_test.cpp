@@ -215,5 +215,19 @@ TEST(HardCase22, PicksOfMeshesThatKeepTheirPositionsAreExact) {
     EXPECT_GT(tally.picked, 200);
 }
 
+TEST(HardCase22, PicksOfMeshesThatKeepTheirPositionsTellWhatReadingRounded) {
+    constexpr double kRounding = 0.01;
+    const test::TemporaryFolder folder;
+    TriangleMesh ball = import::synthesizeMesh(4000, 3);
+    ball.roundingMetres = kRounding;
+    const PickPair pair = meshPair(folder, std::move(ball), fabric::Mat4(1),
+                                   {.leafTriangles = 500, .pack = {.keepsExact = true}});
+    const auto picked =
+        pair.pick({{0, -3, 0}, {0, 0, 0}}, {PickPair::kWidth / 2.0, PickPair::kHeight / 2.0});
+    ASSERT_TRUE(picked.ok() && picked->has_value()) << picked.status();
+    EXPECT_NEAR((*picked)->errorMetres, kRounding, 1e-6);
+    EXPECT_GE((*picked)->errorMetres, kRounding);
+}
+
 }  // namespace
 }  // namespace eyrie

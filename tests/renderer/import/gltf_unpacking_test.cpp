@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -242,6 +243,25 @@ TEST(GltfUnpacking, ReadsNamesThatAreNoUtf8) {
     ASSERT_TRUE(odd.ok()) << odd.status();
     EXPECT_EQ(odd->positions, right->positions);
     EXPECT_EQ(odd->triangles, right->triangles);
+}
+
+TEST(GltfUnpacking, FindsFilesOfNamesThatAreNoUtf8) {
+    const test::TemporaryFolder folder;
+    const std::string name = "M\xfchle.bin";
+    std::string corners(36, '\0');
+    const float ones[] = {1, 1};
+    std::memcpy(corners.data() + 12, &ones[0], 4);
+    std::memcpy(corners.data() + 28, &ones[1], 4);
+    test::writeFile(folder.file(name), corners);
+    test::writeFile(folder.file("m.gltf"),
+                    R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":")" +
+                        name + "\"}]}");
+    const auto mesh = readWithAssimp(folder.file("m.gltf"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_EQ(mesh->triangles.size(), 1U);
 }
 
 TEST(GltfUnpacking, SaysWhatIsWrong) {
