@@ -11,6 +11,7 @@
 
 #include "cli/bench/flights.h"
 #include "cli/bench/resident_memory.h"
+#include "coordinator/frame/eye_sides.h"
 #include "coordinator/frame/frame_sequence.h"
 #include "coordinator/frame/problem.h"
 #include "fabric/status.h"
@@ -30,17 +31,10 @@ absl::Status nothingSeen(const fabric::Box& bounds) {
                     bounds.max.z, ofSize.empty() ? "fly where the data are" : ofSize));
 }
 
-/// Of one eye's picture, where both eyes' are in one.
-fabric::PictureSides sidesOfEye(const fabric::PixelViewport& area,
-                                const coordinator::FrameRequest& asked) {
-    const coordinator::Shown& shown = asked.shown.front();
-    return {area.width / shown.eyesAcross(), area.height / shown.eyesUp()};
-}
-
 /// Errors in pixels of the size asked for.
 fabric::FrameStatistics ofSizeAskedFor(const coordinator::RenderedFrame& drawn,
                                        const coordinator::FrameRequest& asked) {
-    const fabric::PictureSides sides = sidesOfEye(drawn.image.area, asked);
+    const fabric::PictureSides sides = coordinator::sidesOfEye(asked, drawn.image.area);
     const double stretched = stretch(sides, asked.width, asked.height);
     fabric::FrameStatistics statistics = drawn.statistics;
     statistics.tauAchievedPixels = statistics.tauAchievedPixels * stretched +
@@ -82,8 +76,9 @@ public:
             const Milliseconds latency = frame.arrived - frame.begun;
             const Milliseconds interval = frame.arrived - std::exchange(last, frame.arrived);
             const Milliseconds taken = sequence.atOnce == 1 ? latency : interval;
-            const double stretched = stretch(sidesOfEye(frame.drawn->image.area, request),
-                                             request.width, request.height);
+            const double stretched =
+                stretch(coordinator::sidesOfEye(request, frame.drawn->image.area), request.width,
+                        request.height);
             played_.frames.push_back(
                 {pass, seconds, taken.count(), ofSizeAskedFor(*frame.drawn, request),
                  latency.count(), stretched, showsSomething(*frame.drawn, pictures_.background())});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coordinator/frame/eye_sides.h"
 #include "fabric/frame_data.h"
 #include "fabric/ground.h"
 #include "fabric/smaller_picture.h"
@@ -75,9 +76,7 @@ std::optional<fabric::Vec3> liftOf(const ViewRequest& view, const fabric::SceneI
 fabric::PictureSides drawnSides(const coordinator::FrameRequest& asked,
                                 const fabric::PixelViewport& drawn) {
     const bool mayBeSmaller = asked.budgetMilliseconds && !drawn.isEmpty();
-    const coordinator::Shown& shown = asked.shown.front();
-    return mayBeSmaller ? fabric::PictureSides{drawn.width / shown.eyesAcross(),
-                                               drawn.height / shown.eyesUp()}
+    return mayBeSmaller ? coordinator::sidesOfEye(asked, drawn)
                         : fabric::PictureSides{asked.width, asked.height};
 }
 
