@@ -339,6 +339,13 @@ absl::StatusOr<TriangleMesh> Loading::run() {
     return std::move(result_);
 }
 
+/// Whether anything is to be decoded.
+bool areAnyThere(const std::vector<TextureSource>& textures, const std::string& path) {
+    return std::ranges::any_of(textures, [&path](const TextureSource& texture) {
+        return !texture.bytes.empty() || !findTexture(texture.name, path).empty();
+    });
+}
+
 /// In a process of its own, too; what else happens there happens to who reads the images.
 absl::Status checkMemory(const TriangleMesh& mesh, const std::string& path,
                          std::uint64_t memoryBytes, const ReadingLimits& limits,
@@ -465,9 +472,11 @@ absl::Status loadTextures(TriangleMesh& mesh, const std::string& path, const Imp
         return absl::OkStatus();
     if (!mesh.textures.empty()) {
         const ReadingLimits limits = ReadingLimits::forTextures(mesh.textures.size());
-        if (memoryBytes != 0)
+        const bool areAny = areAnyThere(mesh.textures, path);
+        if (memoryBytes != 0 && areAny)
             RETURN_IF_ERROR(checkMemory(mesh, path, memoryBytes, limits, control));
-        auto loaded = readInOwnProcess([&] { return Loading(mesh, path).run(); }, limits, control);
+        const auto load = [&] { return Loading(mesh, path).run(); };
+        auto loaded = areAny ? readInOwnProcess(load, limits, control) : load();
         RETURN_IF_ERROR(control.check());
         if (loaded.ok()) {
             mesh.materials = std::move(loaded->materials);
