@@ -33,6 +33,7 @@ struct ColourRule {
     bool isByBrightest = false;  ///< no value is said to be the most
     double alphaBytePerValue = 1;
     bool isOpaqueByLargest = false;  ///< nor of alpha
+    bool isNegative = false;         ///< 0 is white
 };
 
 int bandTagged(GDALDataset& dataset, GDALColorInterp tag) {
@@ -146,6 +147,9 @@ absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& data
             rule.isOpaqueByLargest =
                 dataset.GetRasterBand(rule.alpha)->GetRasterDataType() != GDT_Byte;
     }
+    // Of those of one bit GDAL itself makes a palette.
+    const char* const isNegative = dataset.GetMetadataItem("MINISWHITE", "IMAGE_STRUCTURE");
+    rule.isNegative = rule.palette == nullptr && isNegative != nullptr && EQUAL(isNegative, "YES");
     if (dataset.GetRasterCount() > 4 || (dataset.GetRasterCount() == 4 && rule.alpha == 0))
         notes.push_back(fmt::format("{}: bands {}, {} and {} of {} taken for red, green and blue",
                                     path, rule.colours[0], rule.colours[1], rule.colours[2],
@@ -164,6 +168,9 @@ struct Block {
 
 /// What is read at once of pictures in strips: the strips themselves are in GDAL's cache.
 constexpr Block kPieceOfStrips{512, kStripPieceRows};
+
+/// What is turned at once of what is read.
+constexpr int kTurnedAtOnce = 512 * 512;
 
 /// What is stored together, unless that is much.
 Block blockOf(GDALRasterBand& band) {
@@ -242,13 +249,21 @@ public:
         const std::size_t count =
             static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
         order_.prepare(j, j + rows);
-        if (readValues(i, j, columns, rows) != CE_None)
-            return CE_Failure;
         out.resize(kBands * count);
-        for (std::size_t k = 0; k < count; ++k) {
-            const std::array<std::uint8_t, kBands> texel = turned(k, count);
-            for (std::size_t c = 0; c < kBands; ++c) out[c * count + k] = texel[c];
+        const int most = std::max(1, kTurnedAtOnce / columns);
+        for (int v = 0; v < rows; v += most) {
+            const int some = std::min(most, rows - v);
+            if (readValues(i, j + v, columns, some) != CE_None)
+                return CE_Failure;
+            const auto row = static_cast<std::size_t>(columns);
+            const std::size_t first = static_cast<std::size_t>(v) * row;
+            const std::size_t part = static_cast<std::size_t>(some) * row;
+            for (std::size_t k = 0; k < part; ++k) {
+                const std::array<std::uint8_t, kBands> texel = turned(k, part);
+                for (std::size_t c = 0; c < kBands; ++c) out[c * count + first + k] = texel[c];
+            }
         }
+        values_ = {};  // there may be hundreds of pictures
         return CE_None;
     }
 
@@ -279,6 +294,7 @@ public:
         }
         if (rule_.isOpaqueByLargest)
             rule_.alphaBytePerValue = 255.0 / opaque;
+        values_ = {};
         return most;
     }
 
@@ -329,7 +345,8 @@ private:
         for (std::size_t c = 0; c < 3; ++c) {
             const int value = values_[(bands() == 1 ? 0 : c) * count + k];
             isNodata = isNodata && value == rule_.nodata[c];
-            texel[c] = toByte(value * rule_.bytePerValue);
+            const std::uint8_t byte = toByte(value * rule_.bytePerValue);
+            texel[c] = rule_.isNegative ? static_cast<std::uint8_t>(255 - byte) : byte;
         }
         if (rule_.palette != nullptr)
             texel = fromPalette(values_[k]);
@@ -411,7 +428,7 @@ absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gd
                        "its geotransform is not finite or has no area; set another "
                        "(gdal_edit.py -a_ullr)");
     const OGRSpatialReferenceH crs = crsOf(dataset.get());
-    if (crs != nullptr)
+    if (crs != nullptr && file.isGeoreferenced)
         file.crs.reset(OSRClone(crs));
     Georeference reference{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}};
     int columns = GDALGetRasterXSize(dataset.get());

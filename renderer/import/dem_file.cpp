@@ -253,7 +253,8 @@ GDALRasterBand* maskOf(GDALDataset& dataset, GDALRasterBand& heights) {
     return nullptr;
 }
 
-/// The heights of another dataset's first band, turned to metres block by block.
+/// The heights of another dataset's first band, turned to metres as they are asked for: GDAL's
+/// cache has the other's blocks, and no second copy of them.
 class HeightBand : public FloatHeights {
 public:
     using Impossible = std::shared_ptr<std::optional<ImpossibleHeight>>;
@@ -277,33 +278,70 @@ protected:
     CPLErr IReadBlock(int x, int y, void* data) override {
         const int i = x * nBlockXSize;
         const int j = y * nBlockYSize;
-        const int columns = std::min(nBlockXSize, nRasterXSize - i);
-        const int rows = std::min(nBlockYSize, nRasterYSize - j);
-        auto* heights = static_cast<float*>(data);
-        if (mask_ != nullptr && !readMask(i, j, columns, rows))
-            return CE_Failure;
-        if (!rule_.isWide)
-            return turn(heights, GDT_Float32, i, j, columns, rows, heights);
-        values_.resize(static_cast<std::size_t>(nBlockXSize) * static_cast<std::size_t>(rows));
-        return turn(values_.data(), GDT_Float64, i, j, columns, rows, heights);
+        return read(i, j, std::min(nBlockXSize, nRasterXSize - i),
+                    std::min(nBlockYSize, nRasterYSize - j), static_cast<float*>(data),
+                    nBlockXSize);
+    }
+
+    CPLErr IRasterIO(GDALRWFlag flag, int i, int j, int columns, int rows, void* data,
+                     int dataColumns, int dataRows, GDALDataType type, GSpacing pixel,
+                     GSpacing line, GDALRasterIOExtraArg* extra) override {
+        constexpr GSpacing kFloat = sizeof(float);
+        if (flag != GF_Read || columns != dataColumns || rows != dataRows || type != GDT_Float32 ||
+            pixel != kFloat || line % kFloat != 0)
+            return GDALRasterBand::IRasterIO(flag, i, j, columns, rows, data, dataColumns, dataRows,
+                                             type, pixel, line, extra);
+        return read(i, j, columns, rows, static_cast<float*>(data), line / kFloat);
     }
 
 private:
-    /// By way of `values`, as many a row as a block has, which may be the heights' own place.
+    /// Down each column of the source's blocks, so that each is decoded once; rows are `stride`
+    /// heights apart.
+    CPLErr read(int i, int j, int columns, int rows, float* heights, std::ptrdiff_t stride) {
+        for (int u = 0; u < columns;) {
+            const int across = std::min(nBlockXSize - (i + u) % nBlockXSize, columns - u);
+            if (readDown(i + u, j, across, rows, heights + u, stride) != CE_None)
+                return CE_Failure;
+            u += across;
+        }
+        return CE_None;
+    }
+
+    /// Some rows at a time.
+    CPLErr readDown(int i, int j, int columns, int rows, float* heights, std::ptrdiff_t stride) {
+        constexpr int kRows = 64;
+        for (int v = 0; v < rows; v += kRows) {
+            const int some = std::min(kRows, rows - v);
+            float* const to = heights + v * stride;
+            if (mask_ != nullptr && !readMask(i, j + v, columns, some))
+                return CE_Failure;
+            if (rule_.isWide)
+                values_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(some));
+            const CPLErr error =
+                rule_.isWide ? turn(values_.data(), columns, i, j + v, columns, some, to, stride)
+                             : turn(to, stride, i, j + v, columns, some, to, stride);
+            if (error != CE_None)
+                return error;
+        }
+        return CE_None;
+    }
+
+    /// By way of `values`, each row `line` of them behind the one before, which may be the heights'
+    /// own place.
     template <typename T>
-    CPLErr turn(T* values, GDALDataType type, int i, int j, int columns, int rows, float* heights) {
-        const auto line = static_cast<GSpacing>(nBlockXSize) * static_cast<GSpacing>(sizeof(T));
-        if (source_->RasterIO(GF_Read, i, j, columns, rows, values, columns, rows, type, sizeof(T),
-                              line, nullptr) != CE_None)
+    CPLErr turn(T* values, std::ptrdiff_t line, int i, int j, int columns, int rows, float* heights,
+                std::ptrdiff_t stride) {
+        const GDALDataType type = sizeof(T) == sizeof(double) ? GDT_Float64 : GDT_Float32;
+        constexpr GSpacing kBytes = sizeof(T);
+        if (source_->RasterIO(GF_Read, i, j, columns, rows, values, columns, rows, type, kBytes,
+                              line * kBytes, nullptr) != CE_None)
             return CE_Failure;
         for (int v = 0; v < rows; ++v)
-            for (int u = 0; u < columns; ++u) {
-                const std::ptrdiff_t k = v * std::ptrdiff_t{nBlockXSize} + u;
-                heights[k] =
+            for (int u = 0; u < columns; ++u)
+                heights[v * stride + u] =
                     mask_ != nullptr && valid_[static_cast<std::size_t>(v * columns + u)] == 0
                         ? terrain::kNodata
-                        : heightOf(values[k], i + u, j + v);
-            }
+                        : heightOf(values[v * line + u], i + u, j + v);
         return CE_None;
     }
 
@@ -405,6 +443,11 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
                                          "-a_srs)",
                                          OSRGetName(crs)));
     ASSIGN_OR_RETURN(const ValueRule rule, valueRule(path, band, crs, file.notes));
+    GDALGetBlockSize(band, &file.blockColumns, &file.blockRows);
+    file.valueBytes = GDALGetDataTypeSizeBytes(GDALGetRasterDataType(band));
+    if (GDALRasterBand* const mask =
+            maskOf(*GDALDataset::FromHandle(dataset.get()), *GDALRasterBand::FromHandle(band)))
+        file.valueBytes += GDALGetDataTypeSizeBytes(mask->GetRasterDataType());
     file.isRounded = rule.isRounded;
     std::array<double, 6> ignored{};
     file.isGeoreferenced = GDALGetGeoTransform(dataset.get(), ignored.data()) == CE_None;

@@ -29,6 +29,9 @@ struct DemFile {
     Dataset dataset;
     int columns = 0;
     int rows = 0;
+    int blockColumns = 1;  ///< of what of the file is read at once
+    int blockRows = 1;
+    int valueBytes = 4;      ///< of one in the file, and of its mask
     Georeference reference;  ///< in units of the CRS, degrees of a geographic one
     bool isGeoreferenced = false;
     SpatialReference crs;    ///< null: none

@@ -21,7 +21,7 @@ namespace {
 using terrain::kRasterTileCells;
 using terrain::kRasterTilePosts;
 
-/// Tiles of a strip: what is read at once.
+/// Tiles of a strip, what is read at once, unless the source has fewer columns at once.
 constexpr std::int32_t kStripTiles = 32;
 
 /// Posts of some tiles side by side, cut off at the grid's end.
@@ -57,7 +57,9 @@ public:
           control_(control),
           model_(model),
           share_(share),
-          stage_(source.readingStage()) {}
+          stage_(source.readingStage()),
+          tilesAtOnce_(std::max(1, source.columnsAtOnce() / kRasterTileCells)),
+          stripTiles_(std::min(kStripTiles, tilesAtOnce_)) {}
 
     absl::Status run() {
         control_.report(stage_, 0);
@@ -86,22 +88,35 @@ private:
     }
 
     std::int32_t stripsAcross() const {
-        return (model_.heights.tilesX() + kStripTiles - 1) / kStripTiles;
+        return (model_.heights.tilesX() + stripTiles_ - 1) / stripTiles_;
     }
     double stripCount() const {
         return static_cast<double>(stripsAcross()) * model_.heights.tilesY();
     }
+    /// Strips side by side that are read down to the last row before others are.
+    std::int32_t stripsAtOnce() const {
+        return std::clamp(tilesAtOnce_ / stripTiles_, 1, stripsAcross());
+    }
+    /// Of the strips in the order in which they are read: column and row.
+    std::pair<std::int32_t, std::int32_t> placeOf(std::int64_t strip) const {
+        const std::int64_t rows = model_.heights.tilesY();
+        const std::int64_t first = strip / (stripsAtOnce() * rows) * stripsAtOnce();
+        const std::int64_t across = std::min<std::int64_t>(stripsAtOnce(), stripsAcross() - first);
+        const std::int64_t within = strip - first * rows;
+        const auto row = static_cast<std::int32_t>(within / across);
+        return {static_cast<std::int32_t>(first + within % across),
+                source_.isLastRowFirst() ? model_.heights.tilesY() - 1 - row : row};
+    }
 
     /// The next strip, cut down to the tiles that are needed; null at the end.
     std::shared_ptr<Strip> nextNeeded() {
-        const std::int32_t strips = stripsAcross();
-        const std::int32_t rows = model_.heights.tilesY();
-        for (; next_ < std::int64_t{strips} * rows; ++next_) {
-            const auto row = static_cast<std::int32_t>(next_ / strips);
+        const std::int64_t strips = std::int64_t{stripsAcross()} * model_.heights.tilesY();
+        for (; next_ < strips; ++next_) {
+            const auto [column, row] = placeOf(next_);
             auto strip = std::make_shared<Strip>();
-            strip->x = static_cast<std::int32_t>(next_ % strips) * kStripTiles;
-            strip->endX = std::min(strip->x + kStripTiles, model_.heights.tilesX());
-            strip->y = source_.isLastRowFirst() ? rows - 1 - row : row;
+            strip->x = column * stripTiles_;
+            strip->endX = std::min(strip->x + stripTiles_, model_.heights.tilesX());
+            strip->y = row;
             while (strip->x < strip->endX && !isNeeded(strip->x, strip->y)) ++strip->x;
             while (strip->x < strip->endX && !isNeeded(strip->endX - 1, strip->y)) --strip->endX;
             if (strip->x < strip->endX)
@@ -155,6 +170,8 @@ private:
     terrain::ElevationModel& model_;
     const ReadingShare& share_;
     const std::string stage_;
+    const std::int32_t tilesAtOnce_;  ///< side by side
+    const std::int32_t stripTiles_;
     std::int64_t next_ = 0;
     absl::Status status_;
     std::mutex statisticsMutex_;

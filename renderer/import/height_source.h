@@ -21,6 +21,8 @@ public:
     virtual const terrain::GridFrame& frame() const = 0;
     /// Rows are stored from the last to the first: quicker read in that order.
     virtual bool isLastRowFirst() const = 0;
+    /// So many columns are quicker read from the first to the last row before others are.
+    virtual std::int32_t columnsAtOnce() const { return frame().columns; }
     /// The heights of a window of the frame, in metres, row by row; NaN is nodata, and there are no
     /// infinities. Errors: DataLoss.
     virtual absl::Status read(const terrain::PostRect& window, float* out) = 0;

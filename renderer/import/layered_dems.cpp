@@ -24,6 +24,34 @@ std::string digitsOf(double value) {
     return nearest == value ? fmt::format("{}", nearest) : fmt::format("{}", value);
 }
 
+/// Of a row of blocks, for each column.
+std::int64_t blockBytesOfColumn(const Dataset& heights) {
+    if (!heights)
+        return 0;
+    int columns = 0, rows = 0;
+    GDALGetBlockSize(GDALGetRasterBand(heights.get(), 1), &columns, &rows);
+    return std::int64_t{rows} * std::int64_t{sizeof(float)};
+}
+
+/// How many columns GDAL's cache holds two rows of blocks of: what is read at once may end within
+/// blocks. All, where files are stored in rows.
+std::int32_t columnsHeld(const std::vector<DemLayer>& layers, std::int32_t all) {
+    std::int64_t ofColumns = 0, ofEdge = 0;  // bytes
+    for (const DemLayer& layer : layers) {
+        std::int64_t ofFiles = 0;
+        for (const DemFile& file : layer.files) {
+            if (file.blockColumns >= file.columns)
+                return all;
+            const std::int64_t ofFile = std::int64_t{file.blockRows} * file.valueBytes;
+            ofFiles = std::max(ofFiles, ofFile);
+            ofEdge = std::max(ofEdge, ofFile * file.blockColumns);
+        }
+        ofColumns += ofFiles + blockBytesOfColumn(layer.joined) + blockBytesOfColumn(layer.warped);
+    }
+    const std::int64_t room = std::int64_t{kGdalCacheBytes} / 2 - ofEdge;
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(room / ofColumns, 1, all));
+}
+
 /// `out` rows from the last to the first where the raster's first row is the frame's last.
 class LayeredSource : public HeightSource {
 public:
@@ -31,6 +59,7 @@ public:
     LayeredSource(std::vector<DemLayer> layers, const Georeference& reference, int columns,
                   int rows)
         : isFlipped_(determinant(reference) < 0) {
+        columnsAtOnce_ = columnsHeld(layers, columns);
         for (DemLayer& layer : layers) layers_.emplace_back(std::move(layer));
         frame_ = {columns, rows, reference.origin + (reference.perColumn + reference.perRow) * 0.5,
                   reference.perColumn, reference.perRow};
@@ -42,6 +71,7 @@ public:
 
     const terrain::GridFrame& frame() const override { return frame_; }
     bool isLastRowFirst() const override { return isFlipped_; }
+    std::int32_t columnsAtOnce() const override { return columnsAtOnce_; }
 
     absl::Status read(const terrain::PostRect& window, float* out) override {
         const auto count =
@@ -147,6 +177,7 @@ private:
     std::vector<LayerReader> layers_;
     int reads_ = 0;
     bool isFlipped_;
+    std::int32_t columnsAtOnce_;
     terrain::GridFrame frame_;
     std::vector<float> buffer_;
     std::vector<std::string> findings_;  ///< before, and in layers that have been released

@@ -79,9 +79,7 @@ public:
             return *facts;
         HeightStatistics facts;
         std::vector<std::uint32_t> tiles = plan_.tilesOf(index);
-        if (source_.isLastRowFirst())
-            std::stable_sort(tiles.begin(), tiles.end(),
-                             [&](std::uint32_t a, std::uint32_t b) { return rowOf(a) > rowOf(b); });
+        std::ranges::stable_sort(tiles, {}, [this](std::uint32_t tile) { return turnOf(tile); });
         for (std::size_t first = 0; first < tiles.size();) {
             const std::size_t end = runFrom(tiles, first);
             RETURN_IF_ERROR(control_.check());
@@ -97,6 +95,13 @@ public:
 private:
     std::uint32_t rowOf(std::uint32_t tile) const {
         return tile / static_cast<std::uint32_t>(plan_.tilesX());
+    }
+    /// Quickest read in the order of these: first those of the same columns, down or up.
+    std::pair<std::int64_t, std::int64_t> turnOf(std::uint32_t tile) const {
+        const std::int64_t row = rowOf(tile);
+        const std::int64_t column = tile - row * plan_.tilesX();
+        return {column * kRasterTileCells / source_.columnsAtOnce(),
+                source_.isLastRowFirst() ? -row : row};
     }
 
     /// Where a run of tiles side by side that are read at once ends.

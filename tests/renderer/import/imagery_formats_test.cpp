@@ -36,7 +36,10 @@ TEST_F(ImageryImport, ReadsGreyPalettesAndOtherThan8Bits) {
     };
     std::unique_ptr<char*, decltype(&CSLDestroy)> fourBits(CSLAddString(nullptr, "NBITS=4"),
                                                            &CSLDestroy);
+    std::unique_ptr<char*, decltype(&CSLDestroy)> whiteFirst(
+        CSLAddString(nullptr, "PHOTOMETRIC=MINISWHITE"), &CSLDestroy);
     for (const Kind& kind : {Kind{"grey", GDT_Byte, 1, {77, 77, 77, 255}},
+                             Kind{"negative", GDT_Byte, 1, {178, 178, 178, 255}},
                              Kind{"narrow", GDT_Byte, 1, {170, 170, 170, 255}},
                              Kind{"palette", GDT_Byte, 1, {10, 200, 30, 255}},
                              Kind{"deep", GDT_UInt16, 3, {77, 128, 255, 255}}}) {
@@ -46,7 +49,9 @@ TEST_F(ImageryImport, ReadsGreyPalettesAndOtherThan8Bits) {
             const GDALDatasetUniquePtr file(
                 GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
                     path.c_str(), 40, 40, kind.bands, kind.type,
-                    std::string_view(kind.name) == "narrow" ? fourBits.get() : nullptr));
+                    std::string_view(kind.name) == "narrow"     ? fourBits.get()
+                    : std::string_view(kind.name) == "negative" ? whiteFirst.get()
+                                                                : nullptr));
             std::array<double, 6> transform{kWest - 50, 10, 0, kSouth + 350, 0, -10};
             file->SetGeoTransform(transform.data());
             OGRSpatialReference crs;

@@ -292,27 +292,31 @@ TEST_F(ImageryImport, SaysThatAMapThatGoesOnPast180DegreesIsCutOffThere) {
     EXPECT_THAT(notesWith(-kHalfTurn, 200), testing::Not(isCutOff));
 }
 
+/// With a CRS, too: it says nothing of where a picture lies that has no place in it.
 TEST_F(ImageryImport, StretchesAPictureWithoutAPlaceOverTheWholeTerrain) {
-    // Four quarters: north-west, north-east, south-west, south-east.
-    Picture picture{.epsg = 0,
-                    .north = 20,
-                    .columns = 20,
-                    .rows = 20,
-                    .colour =
-                        [](double x, double y) {
-                            return Rgba{static_cast<std::uint8_t>(x < 10 ? 40 : 200),
-                                        static_cast<std::uint8_t>(y > 10 ? 200 : 40), 0, 255};
-                        },
-                    .isGeoreferenced = false};
-    const auto file = imported(test::slope(65, 65, 10), {write(picture)});
-    ASSERT_NE(file, nullptr);
-    const test::TexelImage image = test::wholeLevel(*file, 0);
-    const std::int64_t low = image.width / 8;
-    const std::int64_t high = image.width - 1 - low;
-    EXPECT_LE(difference(image.at(low, high), {40, 200, 0, 255}), kTolerance) << "north-west";
-    EXPECT_LE(difference(image.at(high, high), {200, 200, 0, 255}), kTolerance) << "north-east";
-    EXPECT_LE(difference(image.at(low, low), {40, 40, 0, 255}), kTolerance) << "south-west";
-    EXPECT_LE(difference(image.at(high, low), {200, 40, 0, 255}), kTolerance) << "south-east";
+    for (const int epsg : {0, 4326}) {
+        SCOPED_TRACE(epsg);
+        // Four quarters: north-west, north-east, south-west, south-east.
+        Picture picture{.epsg = epsg,
+                        .north = 20,
+                        .columns = 20,
+                        .rows = 20,
+                        .colour =
+                            [](double x, double y) {
+                                return Rgba{static_cast<std::uint8_t>(x < 10 ? 40 : 200),
+                                            static_cast<std::uint8_t>(y > 10 ? 200 : 40), 0, 255};
+                            },
+                        .isGeoreferenced = false};
+        const auto file = imported(test::slope(65, 65, 10), {write(picture)});
+        ASSERT_NE(file, nullptr);
+        const test::TexelImage image = test::wholeLevel(*file, 0);
+        const std::int64_t low = image.width / 8;
+        const std::int64_t high = image.width - 1 - low;
+        EXPECT_LE(difference(image.at(low, high), {40, 200, 0, 255}), kTolerance) << "north-west";
+        EXPECT_LE(difference(image.at(high, high), {200, 200, 0, 255}), kTolerance) << "north-east";
+        EXPECT_LE(difference(image.at(low, low), {40, 40, 0, 255}), kTolerance) << "south-west";
+        EXPECT_LE(difference(image.at(high, low), {200, 40, 0, 255}), kTolerance) << "south-east";
+    }
 }
 
 /// As GDAL reads GeoTIFFs that say what a pixel is, and nothing of a CRS.

@@ -13,7 +13,7 @@ eyrie_test(raster_name_test LABEL unit LINK eyrie::terrain_import)
 eyrie_test(dem_source_test LABEL unit LINK eyrie_test_terrain eyrie::test_support GDAL::GDAL fmt::fmt)
 eyrie_test(tile_bytes_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(dem_mosaic_test LABEL unit
-           SOURCES degrees_caveat_test.cpp dem_mosaic_fixture.cpp dem_mosaic_test.cpp dem_tiles_test.cpp dem_units_test.cpp length_caveat_test.cpp wide_lands_test.cpp
+           SOURCES degrees_caveat_test.cpp dem_blocks_test.cpp dem_mosaic_fixture.cpp dem_mosaic_test.cpp dem_tiles_test.cpp dem_units_test.cpp length_caveat_test.cpp wide_lands_test.cpp
            LINK eyrie_test_terrain GDAL::GDAL fmt::fmt)
 eyrie_test(terrain_resume_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(import_locks_test LABEL unit LINK eyrie_test_terrain)
