@@ -2,8 +2,10 @@
 #include "coordinator/compound/pictures.h"
 
 #include <algorithm>
+#include <set>
 
 #include "coordinator/config/destinations.h"
+#include "coordinator/config/stereo_window.h"
 
 namespace eyrie::compound {
 namespace {
@@ -83,10 +85,14 @@ config::Eyes allEyes(const config::ResolvedConfiguration& resolved, const Output
     return eyes;
 }
 
-/// Whether one channel shows both eyes, wherever two are shown.
-bool areTogether(const config::ResolvedConfiguration& resolved, const Output& output) {
+/// Whether one picture shows both eyes, wherever two are shown: one channel has them, and its
+/// window does not part them.
+bool areTogether(const config::Configuration& configuration,
+                 const config::ResolvedConfiguration& resolved, const Output& output) {
     return std::ranges::all_of(resolved.destinations, [&](const Destination& each) {
-        return !isPartOf(each, output) || each.eyes.left == each.eyes.right;
+        return !isPartOf(each, output) ||
+               (each.eyes.left == each.eyes.right &&
+                !(each.eyes.left && config::isOfStereoWindow(configuration, each.channel)));
     });
 }
 
@@ -172,6 +178,27 @@ std::vector<PicturePart> partsOf(const config::ResolvedConfiguration& resolved,
     return parts;
 }
 
+/// The framebuffers in which something is drawn or assembled.
+std::set<std::size_t> filledBy(std::span<const Step> steps) {
+    std::set<std::size_t> filled;
+    for (const Step& step : steps)
+        if (!std::holds_alternative<Clear>(step) && !std::holds_alternative<ReadBack>(step))
+            filled.insert(std::visit([](const auto& each) { return each.framebuffer; }, step));
+    return filled;
+}
+
+fabric::PixelViewport placeOf(const PicturePart& part) {
+    return {part.x, part.y, part.part.width, part.part.height};
+}
+
+bool isShownByAnother(const PicturePart& part, const std::vector<PicturePart>& parts,
+                      const std::set<std::size_t>& filled) {
+    return std::ranges::any_of(parts, [&](const PicturePart& other) {
+        return filled.contains(other.framebuffer) &&
+               intersection(placeOf(other), placeOf(part)) == placeOf(part);
+    });
+}
+
 }  // namespace
 
 bool isPartOf(const Destination& destination, const Output& output) {
@@ -208,7 +235,7 @@ ShownEyes shownEyes(const config::Configuration& configuration,
         return {{eyes.left ? Eye::Left : Eye::Right}, Stereo::Separate, false};
     const StereoSettings settings = settingsOf(configuration, resolved, output);
     return {{Eye::Left, Eye::Right},
-            configuredStereo(settings.mode, areTogether(resolved, output)),
+            configuredStereo(settings.mode, areTogether(configuration, resolved, output)),
             false};
 }
 
@@ -239,6 +266,17 @@ std::vector<Picture> picturesOf(const config::Configuration& configuration,
             pictures.back().eye = eye;
     }
     return pictures;
+}
+
+void leaveOutEmptyParts(std::span<const Step> steps, std::vector<Picture>& pictures) {
+    const std::set<std::size_t> filled = filledBy(steps);
+    for (Picture& picture : pictures)
+        for (std::vector<PicturePart>* const parts : {&picture.parts, &picture.right}) {
+            const std::vector<PicturePart> all = *parts;
+            std::erase_if(*parts, [&](const PicturePart& part) {
+                return !filled.contains(part.framebuffer) && isShownByAnother(part, all, filled);
+            });
+        }
 }
 
 }  // namespace eyrie::compound

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "coordinator/compound/work.h"
@@ -28,5 +29,9 @@ bool isPartOf(const config::Destination& destination, const Output& output);
 std::vector<Picture> picturesOf(const config::Configuration& configuration,
                                 const config::ResolvedConfiguration& resolved, const Output& output,
                                 std::size_t index, WorkList& list);
+
+/// Leaves out parts that no step draws or assembles anything in, which would be background, where
+/// another part shows something in the same place.
+void leaveOutEmptyParts(std::span<const Step> steps, std::vector<Picture>& pictures);
 
 }  // namespace eyrie::compound

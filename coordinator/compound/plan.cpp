@@ -187,10 +187,8 @@ std::optional<Plan> makePlan(const config::Configuration& configuration, const P
         addWork(configuration, shown, request, pass, list);
     Plan plan;
     for (std::size_t i = 0; i < request.outputs.size(); ++i)
-        for (Picture& picture : picturesOf(configuration, shown, request.outputs[i], i, list)) {
-            picture.seen = seenAreas(picture, list, request.fovYDegrees);
+        for (Picture& picture : picturesOf(configuration, shown, request.outputs[i], i, list))
             plan.pictures.push_back(std::move(picture));
-        }
     StepList steps = stepsOf(shown, inOrder(shown, list), list);
     if (hasAny(refusals))
         return std::nullopt;
@@ -198,6 +196,9 @@ std::optional<Plan> makePlan(const config::Configuration& configuration, const P
         warnOfGaps(shown, list, plan.pictures, steps.contents, plan.gaps);
         plan.lostDepth = lostDepth(shown, list, steps.frames);
     }
+    leaveOutEmptyParts(steps.steps, plan.pictures);
+    for (Picture& picture : plan.pictures)
+        picture.seen = seenAreas(picture, list, request.fovYDegrees);
     plan.steps = std::move(steps.steps);
     plan.frames = list.frames.size();
     plan.draws = std::move(list.draws);

@@ -59,15 +59,35 @@ std::optional<Plan> planOf(const config::Configuration& live, PlanRequest reques
     return plan;
 }
 
-/// Sees the plan, or why there is none, of each canvas in each of its layouts and in each frame.
-void eachPlan(const config::Configuration& live,
-              const std::function<void(const std::optional<Plan>&, const Refusals&)>& see) {
+/// How many plans were made, of how many there are.
+struct Tried {
+    std::int64_t plans = 0;
+    std::int64_t all = 0;
+};
+
+/// Each plan resolves all compounds: so many plans are made of as many.
+std::int64_t mostPlans(const config::Configuration& live) {
+    config::Findings told;  // by whoever resolved it before
+    const std::size_t compounds = config::resolve(live, told).compounds.size();
+    return kMostCompoundsTried /
+           std::clamp<std::int64_t>(static_cast<std::int64_t>(compounds), 1, kMostCompoundsTried);
+}
+
+/// Sees the plan, or why there is none, of each canvas in each of its layouts and in each frame, or
+/// of the first where these are very many.
+Tried eachPlan(const config::Configuration& live,
+               const std::function<void(const std::optional<Plan>&, const Refusals&)>& see) {
+    Tried tried;
+    const std::int64_t most = mostPlans(live);
     PlanRequest request;
     request.looksForGaps = true;
     request.display.canvases.resize(live.canvases.size());
     const std::int64_t frames = framesOf(live.compounds, 1);
     const auto eachFrame = [&] {
         for (std::int64_t frame = 0; frame < frames; ++frame) {
+            if (tried.all++ >= most)
+                continue;
+            ++tried.plans;
             request.frameNumber = static_cast<std::uint64_t>(frame);
             Refusals refusals;
             const std::optional<Plan> plan = planOf(live, request, refusals);
@@ -85,6 +105,7 @@ void eachPlan(const config::Configuration& live,
             eachFrame();
             request.display.canvases[i].layout = 0;
         }
+    return tried;
 }
 
 const config::Place& placeOf(const LostDepth& lost) {
@@ -156,10 +177,15 @@ void checkPlans(const config::Configuration& configuration, config::Findings& fi
     config::Findings told;  // by whoever resolved it before
     warnOfLoneEyes(configuration, config::resolve(configuration, told), findings);
     Checker checker(findings);
-    eachPlan(balanced(configuration),
-             [&](const std::optional<Plan>& plan, const Refusals& refusals) {
-                 checker.see(plan, refusals);
-             });
+    const Tried tried = eachPlan(balanced(configuration),
+                                 [&](const std::optional<Plan>& plan, const Refusals& refusals) {
+                                     checker.see(plan, refusals);
+                                 });
+    if (tried.plans < tried.all)
+        findings.note({}, fmt::format("of {} pictures, of each canvas in each of its layouts and "
+                                      "in each frame, the first {} were tried: with as many "
+                                      "compounds the others would take long",
+                                      tried.all, tried.plans));
 }
 
 absl::Status checkDivision(const config::Configuration& written,

@@ -21,6 +21,8 @@ namespace eyrie::compound {
 /// one eye alone sees in stereo, and of a configuration without canvas.
 void checkPlans(const config::Configuration& configuration, config::Findings& findings);
 inline constexpr std::int64_t kMostFramesTried = 60;
+/// Compounds, each as often as it is planned: beyond that a note says how much was not tried.
+inline constexpr std::int64_t kMostCompoundsTried = 500'000;
 
 /// Whether the equalizer, of those from 0 on, may be as `state` has it: one that divides data, and
 /// does not as it is written, only where all that have a part of the data send depths.

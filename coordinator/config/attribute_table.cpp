@@ -26,8 +26,8 @@ struct Known {
     Type type;
     Finding::Kind kind = Finding::Kind::Note;  ///< of what is said where it has no effect
     std::string_view why = {};                 ///< it has none; empty: it has one
-    /// Values with which all is as it is anyway, besides AUTO: numbers up to this (ON is 1 and OFF
-    /// 0), and this word.
+    /// Values of which nothing is said, besides AUTO, as all is so anyway or they have an effect:
+    /// numbers up to this (ON is 1 and OFF 0), and this word.
     std::int64_t upTo = -1;
     std::string_view word = {};
 };
@@ -67,13 +67,18 @@ constexpr std::array kKnown{
     Known{Scope::Window, "hint_opengl_major", Type::Setting, kNote, kOpenGl, 4},
     Known{Scope::Window, "hint_opengl_minor", Type::Setting, kNote, kOpenGl, 5},
     Known{Scope::Window, "hint_stereo", Type::Setting, kNote,
-          "each eye has a picture of its own; `stereo_mode` says how they are put together", 0},
+          "ON gives each eye a picture of its own where `stereo_mode` is AUTO; all else counts as "
+          "OFF",
+          1},
     Known{Scope::Window, "hint_doublebuffer", Type::Setting, kOnScreen, kNoScreen},
     Known{Scope::Window, "hint_decoration", Type::Setting, kOnScreen, kNoScreen},
     Known{Scope::Window, "hint_fullscreen", Type::Setting, kOnScreen, kNoScreen},
     Known{Scope::Window, "hint_swapsync", Type::Setting, kOnScreen, kNoScreen},
-    Known{Scope::Window, "hint_drawable", Type::Setting, kNote,
-          "all is drawn into framebuffer objects", -1, "fbo"},
+    Known{
+        Scope::Window, "hint_drawable", Type::Setting, kNote,
+        "all is drawn into framebuffer objects; with `hint_stereo` ON, FBO and pbuffer alone make "
+        "`stereo_mode` AUTO an anaglyph",
+        -1, "fbo"},
     Known{Scope::Window, "hint_statistics", Type::Setting, kNote, kMeasured, -1, "on"},
     Known{Scope::Window, "hint_screensaver", Type::Setting, kOnScreen, kNoScreen},
     Known{Scope::Window, "hint_grab_pointer", Type::Setting, kOnScreen, kNoScreen},
@@ -301,8 +306,8 @@ Scalar laterWord(const std::string& text) {
     return {isNumber ? Scalar::Kind::Integer : Scalar::Kind::Word, text, number};
 }
 
-/// Whether all is as the setting says without it.
-bool isAsItIs(const Known& known, const Attribute& attribute) {
+/// Whether there is nothing to say of the setting's value.
+bool isTaken(const Known& known, const Attribute& attribute) {
     if (const auto* number = std::get_if<std::int64_t>(&attribute.value))
         return *number <= known.upTo;
     const auto* const words = std::get_if<Attribute::Words>(&attribute.value);
@@ -318,7 +323,7 @@ void read(const Statement& statement, const Known& known, ValueReader& reader,
     Attribute attribute{statement.keyword, {}, statement.place};
     if (!readValue(statement, known.type, reader, attribute))
         return;
-    if (!known.why.empty() && !isAsItIs(known, attribute))
+    if (!known.why.empty() && !isTaken(known, attribute))
         reader.hasNoEffect(statement, known.why, known.kind);
     const auto before = std::ranges::find(attributes, attribute.name, &Attribute::name);
     if (before == attributes.end()) {

@@ -267,7 +267,8 @@ struct SubPixelShare {
 
 /// An output or input frame: a picture that passes between compounds, by name.
 struct Frame {
-    std::string name;  ///< empty: "frame." and that of the compound or its channel
+    /// Empty: "frame." and that of the compound or else of its channel, which it may inherit.
+    std::string name;
     bool isTexture = false;
     /// Output: what of the compound's picture it is. Input: its lower left corner is where the
     /// picture that the frame is a part of begins, and nothing comes in beside it.

@@ -199,9 +199,9 @@ private:
         const Canvas& canvas = configuration_.canvases[index.canvas];
         const Segment& segment = canvas.segments[index.segment];
         const View& view = configuration_.layouts[index.layout].views[index.view];
-        const Viewport both = intersection(segment.viewport, view.viewport);
-        if (both.width <= 0 || both.height <= 0)
+        if (!overlap(segment.viewport, view.viewport))
             return;
+        const Viewport both = intersection(segment.viewport, view.viewport);
         if (!segment.channel)
             return findings_.warning(segment.place, "a segment without channel shows nothing");
         const ChannelIndex& channel = *segment.channel;

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "coordinator/config/attribute_table.h"
+#include "coordinator/config/screen.h"
 #include "coordinator/config/section_readers.h"
 
 namespace eyrie::config {
@@ -85,6 +87,24 @@ void addLayout(const Statement& statement, const Configuration& before, ValueRea
         canvas.layouts.push_back(layout);
 }
 
+/// Walls measured to the centimetre are nearly rectangles.
+void checkCorners(const Wall& wall, const Place& place, Findings& findings) {
+    constexpr double kMostSkew = 2e-2;  // 1.1 degrees
+    if (!(glm::distance(wall.bottomLeft, wall.bottomRight) > 0 &&
+          glm::distance(wall.bottomLeft, wall.topLeft) > 0))
+        return findings.error(place, "the wall's corners are no rectangle's: two are one");
+    const double skew = std::abs(skewOf(wall));
+    if (!(skew <= kMostSkew))
+        findings.error(place,
+                       "the wall's corners are no rectangle's: its sides do not meet at a right "
+                       "angle in bottom_left");
+    else if (skew > kRoundedSkew)
+        findings.warning(
+            place, fmt::format("the wall's sides meet at {:.2f} degrees in bottom_left: it is "
+                               "taken for the rectangle with the lower side and as high",
+                               glm::degrees(std::acos(skewOf(wall)))));
+}
+
 }  // namespace
 
 Surface readWall(const Statement& block, ValueReader& reader) {
@@ -97,17 +117,7 @@ Surface readWall(const Statement& block, ValueReader& reader) {
          {"type", [&](const auto& each) {
               reader.choice<bool>(each, {{"fixed", false}, {"HMD", true}}, wall.movesWithHead);
           }}});
-    const fabric::Vec3 across = wall.bottomRight - wall.bottomLeft;
-    const fabric::Vec3 upward = wall.topLeft - wall.bottomLeft;
-    const double width = glm::length(across);
-    const double height = glm::length(upward);
-    constexpr double kSkew = 1e-3;  // of right angles: corners are written with few digits
-    if (!(width > 0 && height > 0))
-        reader.findings().error(block.place, "the wall's corners are no rectangle's: two are one");
-    else if (std::abs(glm::dot(across, upward)) > kSkew * width * height)
-        reader.findings().error(block.place,
-                                "the wall's corners are no rectangle's: its sides do not meet at a "
-                                "right angle in bottom_left");
+    checkCorners(wall, block.place, reader.findings());
     return wall;
 }
 

@@ -19,12 +19,28 @@ namespace {
 constexpr std::array<std::string_view, 3> kVersions{"1.0", "1.1", kNewestVersion};
 constexpr std::int64_t kMostLatency = 1000;
 
+Node& addNode(const Statement& block, Configuration& configuration) {
+    Node& node = configuration.nodes.emplace_back();
+    node.place = block.place;
+    return node;
+}
+
+/// As in Equalizer, there is one: what another block says is added to it.
+void readAppNode(const Statement& block, ValueReader& reader, Configuration& configuration) {
+    const auto before = std::ranges::find_if(configuration.nodes, &Node::isApplication);
+    if (before == configuration.nodes.end()) {
+        Node& node = addNode(block, configuration);
+        node.isApplication = true;
+        return readNode(block, reader, node);
+    }
+    reader.findings().warning(block.place,
+                              fmt::format("there is an appNode already, at {}: what is here is "
+                                          "added to it; call other machines 'node'",
+                                          describe(before->place)));
+    readNode(block, reader, *before);
+}
+
 void readConfig(const Statement& block, ValueReader& reader, Configuration& configuration) {
-    const auto node = [&](bool isApplication) {
-        return [&, isApplication](const Statement& each) {
-            configuration.nodes.push_back(readNode(each, isApplication, reader));
-        };
-    };
     reader.block(
         block, "a config",
         {{"name", [&](const auto& each) { reader.text(each, configuration.name); }},
@@ -43,8 +59,8 @@ void readConfig(const Statement& block, ValueReader& reader, Configuration& conf
           [&](const auto& each) {
               readAttributes(each, AttributeScope::Config, reader, configuration.attributes);
           }},
-         {"appNode", node(true)},
-         {"node", node(false)},
+         {"appNode", [&](const auto& each) { readAppNode(each, reader, configuration); }},
+         {"node", [&](const auto& each) { readNode(each, reader, addNode(each, configuration)); }},
          {"observer",
           [&](const auto& each) { configuration.observers.push_back(readObserver(each, reader)); }},
          {"layout",

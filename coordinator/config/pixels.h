@@ -37,12 +37,21 @@ inline Viewport part(const Viewport& whole, const Viewport& fraction) {
             whole.width * fraction.width, whole.height * fraction.height};
 }
 
+/// Of a whole: what is no wider or higher is rounding, as fractions are written with few digits.
+inline constexpr double kLeastFraction = 1e-6;
+
 /// Where both are; of no width or height where nowhere.
 inline Viewport intersection(const Viewport& a, const Viewport& b) {
     const double x = std::fmax(a.x, b.x);
     const double y = std::fmax(a.y, b.y);
     return {x, y, std::fmax(0, std::fmin(a.x + a.width, b.x + b.width) - x),
             std::fmax(0, std::fmin(a.y + a.height, b.y + b.height) - y)};
+}
+
+/// Whether they have more in common than what is left of rounding.
+inline bool overlap(const Viewport& a, const Viewport& b) {
+    const Viewport both = intersection(a, b);
+    return both.width > kLeastFraction && both.height > kLeastFraction;
 }
 
 /// How `inner`, within `outer`, is a fraction of that.

@@ -2,7 +2,10 @@
 #include "coordinator/config/resolved.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <numeric>
+#include <set>
 #include <span>
 #include <unordered_map>
 
@@ -73,6 +76,8 @@ public:
         : configuration_(configuration), findings_(findings) {
         resolved_.destinations = destinationsOf(configuration, display, findings);
         served_.resize(resolved_.destinations.size(), false);
+        for (std::size_t i = 0; i < resolved_.destinations.size(); ++i)
+            positions_.emplace(keyOf(resolved_.destinations[i].index), i);
     }
 
     ResolvedConfiguration run() {
@@ -101,6 +106,11 @@ private:
     using Inherited = ResolvedCompound;
     /// Names by which frames are called by default, from the root down.
     using Path = std::vector<const Compound*>;
+    using Key = std::array<std::size_t, 4>;
+
+    static Key keyOf(const DestinationIndex& index) {
+        return {index.canvas, index.segment, index.layout, index.view};
+    }
 
     void visit(const Compound& compound, const Inherited* parent) {
         path_.push_back(&compound);
@@ -137,15 +147,15 @@ private:
         const auto* index = std::get_if<DestinationIndex>(&compound.channel);
         if (index == nullptr)
             return;
-        const auto found = std::ranges::find(resolved_.destinations, *index, &Destination::index);
-        if (found == resolved_.destinations.end())
+        const auto found = positions_.find(keyOf(*index));
+        if (found == positions_.end())
             return findings_.error(compound.place,
                                    "the channel's view is not shown on its segment: no layout of "
                                    "the canvas has it, or they do not meet");
-        own.channel = found->channel;
+        own.channel = resolved_.destinations[found->second].channel;
         if (own.destination)
             return;  // within the picture of one destination another's channel is a helper
-        takePicture(static_cast<std::size_t>(found - resolved_.destinations.begin()), own);
+        takePicture(found->second, own);
         served_[*own.destination] = true;
     }
 
@@ -288,17 +298,27 @@ private:
             addSights(configuration_, resolved_.destinations, own, findings_);
     }
 
+    /// By default, as in Equalizer, that of the compound, else of the channel that does its tasks,
+    /// else those of the compounds above it.
     std::string nameOf(const Frame& frame) const {
         if (!frame.name.empty())
             return frame.name;
         for (auto compound = path_.rbegin(); compound != path_.rend(); ++compound) {
             if (!(*compound)->name.empty())
                 return "frame." + (*compound)->name;
-            if (const std::string* const name = channelName(**compound);
+            if (const std::string* const name = inheritedChannelName(compound);
                 name != nullptr && !name->empty())
                 return "frame." + *name;
         }
         return "frame";
+    }
+
+    /// Of the compound's channel or, where it names none, that of the nearest above it.
+    const std::string* inheritedChannelName(Path::const_reverse_iterator compound) const {
+        const auto named = std::find_if(compound, path_.rend(), [](const Compound* each) {
+            return !std::holds_alternative<std::monostate>(each->channel);
+        });
+        return named == path_.rend() ? nullptr : channelName(**named);
     }
 
     const std::string* channelName(const Compound& compound) const {
@@ -309,9 +329,9 @@ private:
                         .channels[source->channel]
                         .name;
         if (const auto* index = std::get_if<DestinationIndex>(&compound.channel)) {
-            const auto found =
-                std::ranges::find(resolved_.destinations, *index, &Destination::index);
-            return found == resolved_.destinations.end() ? nullptr : &found->name;
+            const auto found = positions_.find(keyOf(*index));
+            return found == positions_.end() ? nullptr
+                                             : &resolved_.destinations[found->second].name;
         }
         return nullptr;
     }
@@ -366,18 +386,26 @@ private:
         for (ResolvedCompound& compound : tree)
             for (ResolvedFrame& frame : compound.inputFrames) takeOutputs(compound, frame);
         for (const Output& output : inOrder_)
-            if (!output.frame->isMatched)
+            if (uncompared_.contains(output.frame->name))
+                output.frame->isMatched = true;
+            else if (!output.frame->isMatched)
                 findings_.warning(
                     output.frame->frame->place,
                     fmt::format("nobody takes the outputframe \"{}\"", output.frame->name));
         outputs_.clear();
         inOrder_.clear();
+        uncompared_.clear();
     }
 
     void takeOutputs(const ResolvedCompound& compound, ResolvedFrame& frame) {
         if (!compound.destination)
             return warnOfOutside(frame, "the inputframe has no effect");
         const std::vector<Output>& named = outputs_[frame.name];
+        if (!named.empty() && !isCompared(named.size(), frame)) {
+            frame.isMatched = true;
+            uncompared_.insert(frame.name);
+            return;
+        }
         for (const Output& output : named)
             if (mayMeet(*output.compound, compound))
                 frame.isMatched = output.frame->isMatched = true;
@@ -403,9 +431,12 @@ private:
         if (!compound.destination)
             return warnOfOutside(frame, "the outputframe stays empty");
         std::vector<Output>& others = outputs_[frame.name];
-        const bool isTaken = std::ranges::any_of(others, [&](const Output& other) {
-            return other.compound->tasks.readback && meet(*other.compound, compound);
-        });
+        const bool isTaken = isCompared(others.size(), frame) &&
+                             std::ranges::any_of(others, [&](const Output& other) {
+                                 return other.compound->tasks.readback &&
+                                        meet(*other.compound, compound) &&
+                                        !areInTurn(*other.compound, compound);
+                             });
         if (isTaken)
             findings_.warning(frame.frame->place,
                               fmt::format("another outputframe is named \"{}\" already; this one "
@@ -415,9 +446,29 @@ private:
             others.push_back(inOrder_.emplace_back(Output{&compound, &frame}));
     }
 
+    /// Whether a frame is still compared with so many others, of which there may be very many.
+    bool isCompared(std::size_t others, const ResolvedFrame& frame) {
+        const bool isFirst = compared_ <= kMostCompared;
+        compared_ += others;
+        if (compared_ > kMostCompared && isFirst)
+            findings_.note(frame.frame->place,
+                           fmt::format("frames of one name are compared with each other in up to "
+                                       "{} pairs: from \"{}\" here on nobody looks whether they "
+                                       "are drawn and taken in the same frames",
+                                       kMostCompared, frame.name));
+        return compared_ <= kMostCompared;
+    }
+
     /// Whether they meet; of compounds that the view has no eyes for in its mode, in another mode.
-    static bool mayMeet(const ResolvedCompound& a, const ResolvedCompound& b) {
-        return meet(a, b) || a.eyes.isEmpty() || b.eyes.isEmpty();
+    bool mayMeet(const ResolvedCompound& a, const ResolvedCompound& b) const {
+        return !areInTurn(a, b) && (meet(a, b) || a.eyes.isEmpty() || b.eyes.isEmpty());
+    }
+
+    /// Of two layouts of one canvas, which shows one at a time.
+    bool areInTurn(const ResolvedCompound& a, const ResolvedCompound& b) const {
+        const DestinationIndex& first = resolved_.destinations[*a.destination].index;
+        const DestinationIndex& second = resolved_.destinations[*b.destination].index;
+        return first.canvas == second.canvas && first.layout != second.layout;
     }
 
     /// The plain picture of a view that no compound makes.
@@ -441,9 +492,13 @@ private:
         ResolvedFrame* frame;
     };
 
-    std::vector<bool> served_;  ///< destinations that a compound makes
+    std::map<Key, std::size_t> positions_;  ///< of destinations
+    std::vector<bool> served_;              ///< destinations that a compound makes
     std::unordered_map<std::string, std::vector<Output>> outputs_;  ///< of the tree, by name
     std::vector<Output> inOrder_;                                   ///< the same
+    static constexpr std::size_t kMostCompared = 1'000'000;         ///< pairs of frames
+    std::set<std::string> uncompared_;  ///< names that are taken, of one tree
+    std::size_t compared_ = 0;
     Path path_;
     std::vector<Eyes> eyesSaid_;  ///< by the compounds of the path, each within those above it
 };

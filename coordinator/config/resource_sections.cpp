@@ -145,12 +145,9 @@ Connection readConnection(const Statement& block, ValueReader& reader) {
     return connection;
 }
 
-Node readNode(const Statement& block, bool isApplication, ValueReader& reader) {
-    Node node;
-    node.place = block.place;
-    node.isApplication = isApplication;
+void readNode(const Statement& block, ValueReader& reader, Node& node) {
     reader.block(
-        block, isApplication ? "an appNode" : "a node",
+        block, node.isApplication ? "an appNode" : "a node",
         {{"name", [&](const auto& each) { reader.text(each, node.name); }},
          {"host", [&](const auto& each) { reader.text(each, node.host); }},
          {"connection",
@@ -160,7 +157,6 @@ Node readNode(const Statement& block, bool isApplication, ValueReader& reader) {
               readAttributes(each, AttributeScope::Node, reader, node.attributes);
           }},
          {"pipe", [&](const auto& each) { node.pipes.push_back(readPipe(each, reader)); }}});
-    return node;
 }
 
 }  // namespace eyrie::config

@@ -25,7 +25,20 @@ std::array<Vec3, 3> axesOf(const Wall& wall) {
     return {across, upward, glm::cross(across, upward)};
 }
 
+/// On the same lower side, in the same plane, and as high.
+Wall squared(const Wall& wall) {
+    Wall square = wall;
+    square.topLeft =
+        wall.bottomLeft + glm::length(wall.topLeft - wall.bottomLeft) * axesOf(wall)[1];
+    return square;
+}
+
 }  // namespace
+
+double skewOf(const Wall& wall) {
+    return glm::dot(glm::normalize(wall.bottomRight - wall.bottomLeft),
+                    glm::normalize(wall.topLeft - wall.bottomLeft));
+}
 
 Wall wallOf(const Projection& projection) {
     const Vec3& hpr = projection.headingPitchRollDegrees;
@@ -44,7 +57,7 @@ Wall wallOf(const Projection& projection) {
 
 std::optional<Wall> wallOf(const Surface& surface) {
     if (const auto* wall = std::get_if<Wall>(&surface))
-        return *wall;
+        return std::abs(skewOf(*wall)) > kRoundedSkew ? squared(*wall) : *wall;
     if (const auto* projection = std::get_if<Projection>(&surface))
         return wallOf(*projection);
     return std::nullopt;

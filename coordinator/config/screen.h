@@ -17,7 +17,14 @@ namespace eyrie::config {
 /// which shows with model units other than 1; here it is always before it.
 Wall wallOf(const Projection& projection);
 
-/// Nothing for a surface that is not there.
+/// The cosine of the angle in the lower left corner: 0 of rectangles.
+double skewOf(const Wall& wall);
+
+/// As much of it comes of corners that are written with few digits.
+inline constexpr double kRoundedSkew = 1e-3;
+
+/// A rectangle: of a wall that is further from one, that on its lower side and as high. Nothing for
+/// a surface that is not there.
 std::optional<Wall> wallOf(const Surface& surface);
 
 /// A part of a wall, in fractions from its lower left corner.

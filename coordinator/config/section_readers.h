@@ -9,7 +9,8 @@
 namespace eyrie::config {
 
 Connection readConnection(const Statement& block, ValueReader& reader);
-Node readNode(const Statement& block, bool isApplication, ValueReader& reader);
+/// `node` has what is said of it before.
+void readNode(const Statement& block, ValueReader& reader, Node& node);
 
 Surface readWall(const Statement& block, ValueReader& reader);
 Surface readProjection(const Statement& block, ValueReader& reader);

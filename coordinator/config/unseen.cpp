@@ -101,12 +101,10 @@ std::map<Shown, std::vector<std::size_t>> segmentsOf(const ResolvedConfiguration
 
 /// Whether the segments lie over one another where the view is.
 bool overlap(const Destination& a, const Destination& b, const Configuration& configuration) {
-    constexpr double kLeast = 1e-6;  // of the canvas; fractions are written with few digits
     const std::vector<Segment>& segments = configuration.canvases[a.index.canvas].segments;
-    const Viewport common = intersection(
+    return overlap(
         intersection(segments[a.index.segment].viewport, segments[b.index.segment].viewport),
         configuration.layouts[a.index.layout].views[a.index.view].viewport);
-    return common.width > kLeast && common.height > kLeast;
 }
 
 std::string namesOf(const Eyes& eyes) {

@@ -189,7 +189,8 @@ TEST(EqcWarnings, AreNotOfSettingsThatAskForWhatIsSoAnyway) {
     for (const char* asItIs :
          {"planes_samples OFF", "planes_samples 1", "planes_samples AUTO", "planes_color 8",
           "planes_alpha ON", "planes_depth 24", "planes_stencil OFF", "hint_drawable FBO",
-          "hint_stereo OFF", "hint_opengl_major 3", "hint_core_profile ON", "hint_statistics ON"})
+          "hint_stereo OFF", "hint_stereo ON", "hint_opengl_major 3", "hint_core_profile ON",
+          "hint_statistics ON"})
         EXPECT_EQ(found(asItIs), "");
     for (const char* other : {"planes_samples 2", "planes_color RGBA16F", "planes_color 10",
                               "planes_depth 64", "planes_stencil ON", "hint_drawable pbuffer",

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <random>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -270,6 +271,21 @@ TEST(Resolve, MakesAPlainCompoundOfAViewThatNoneShows) {
     EXPECT_EQ(plain.eyes, (Eyes{true, false, false}));
 }
 
+/// .4 and .2 are more than .6 by 1e-16 of a canvas.
+TEST(Resolve, FindsNoViewOnASegmentThatItMeetsByRoundingAlone) {
+    std::string segments;
+    for (const char* const x : {"0", ".2", ".4", ".6", ".8"})
+        segments += fmt::format("segment {{ channel \"a\" viewport [ {} 0 .2 1 ] }} ", x);
+    const Read read(
+        "config { appNode { pipe { window { channel { name \"a\" } } } } layout { view { viewport "
+        "[ 0 0 .6 1 ] } view { viewport [ .6 0 .4 1 ] } } canvas { layout 0 " +
+        segments + "} }");
+    EXPECT_EQ(describe(read.findings, "f"), "");
+    ASSERT_EQ(read.resolved.destinations.size(), 5U);
+    for (const Destination& each : read.resolved.destinations)
+        EXPECT_EQ(each.index.view, each.index.segment < 3 ? 0U : 1U);
+}
+
 TEST(Resolve, MultipliesWhatChildrenInherit) {
     const Read read(withCompounds(
         "compound { channel ( segment 0 view 0 ) buffer [ COLOR DEPTH ]"
@@ -294,6 +310,25 @@ TEST(Resolve, MultipliesWhatChildrenInherit) {
     EXPECT_TRUE(leaf.outputFrames.front().isMatched);
     const ResolvedCompound& middle = read.resolved.compounds[1];
     EXPECT_EQ(middle.tasks, (Tasks{true, false, true, false}));
+}
+
+/// As in Equalizer: its compound's, else its channel's, whoever names that, else those above.
+TEST(Resolve, CallsFramesWithoutANameByCompoundOrInheritedChannel) {
+    const auto named = [](const std::string& name, const std::string& child) {
+        const Read read(withCompounds(
+            "compound { name \"top\" channel ( segment 0 view 0 ) compound { " + child +
+            " outputframe { type texture } } inputframe { name \"" + name + "\" } }"));
+        EXPECT_EQ(describe(read.findings, "f"), "") << child;
+        return read.resolved.compounds.at(1).outputFrames.at(0);
+    };
+    EXPECT_TRUE(named("frame.a", "subpixel [ 0 2 ]").isMatched) << "the destination's channel";
+    EXPECT_TRUE(named("frame.b", "channel \"b\"").isMatched);
+    EXPECT_TRUE(named("frame.c", "channel \"b\" name \"c\"").isMatched);
+    const Read nameless(
+        "config { appNode { pipe { window { channel {} } } } layout { view {} } canvas { layout 0 "
+        "segment { channel ( node 0 channel 0 ) } } compound { name \"top\" channel ( segment 0 "
+        "view 0 ) compound { outputframe {} } inputframe { name \"frame.top\" } } }");
+    EXPECT_EQ(nameless.resolved.compounds.at(1).outputFrames.at(0).name, "frame.top");
 }
 
 /// Equalizer's lexer takes 'buffers' for 'buffer', wherever it stands, and its files have both.

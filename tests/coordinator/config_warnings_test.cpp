@@ -68,6 +68,26 @@ TEST(EqcWarnings, SayWhichOfTwoWallsCounts) {
                 testing::Not(HasSubstr("given again")));
 }
 
+/// Measured to the centimetre, on a room's floor.
+TEST(EqcWarnings, SayWhichWallsAreNearlyRectangles) {
+    const auto found = [](double skew) {
+        return describe(
+            Read(fmt::format("config {{ layout {{ view {{\n wall {{ bottom_left [ 0 0 0 ] "
+                             "bottom_right [ 3 0 0 ] top_left [ {} 2 0 ] }} }} }} }}",
+                             2 * skew))
+                .findings,
+            "f");
+    };
+    EXPECT_EQ(found(.0009), "");
+    for (const double skew : {.01, -.01})
+        EXPECT_EQ(found(skew), fmt::format("f:2:2: warning: the wall's sides meet at {} degrees in "
+                                           "bottom_left: it is taken for the rectangle with the "
+                                           "lower side and as high\n",
+                                           skew > 0 ? "89.43" : "90.57"));
+    EXPECT_THAT(found(.0199), HasSubstr("warning: the wall's sides"));
+    EXPECT_THAT(found(.021), HasSubstr("error"));
+}
+
 TEST(EqcWarnings, SayThatALayoutIsCalledAsNoneIs) {
     EXPECT_THAT(
         describe(Read("config {\nlayout { name \"OFF\" view {} } }").findings, "f"),
@@ -315,6 +335,55 @@ TEST(EqcWarnings, SayWhichOutputFramesHaveANameThatAnotherHas) {
         "f:2:45: warning: the compound's task has no READBACK: the outputframe stays empty\n");
 }
 
+TEST(EqcWarnings, SayWhereVeryManyFramesOfOneNameAreNotComparedAnyMore) {
+    const auto read = [](int count) {
+        std::string compounds;
+        for (int i = 0; i < count; ++i)
+            compounds += fmt::format(
+                "compound {{ channel \"b\" period {} phase {} outputframe {{ name \"f\" }} }} ",
+                count, i);
+        return Read(withCompounds("compound { channel ( segment 0 view 0 )\n" + compounds +
+                                  "inputframe { name \"f\" } inputframe { name \"typo\" } }"));
+    };
+    EXPECT_THAT(describe(read(100).findings, "f"), HasSubstr("is named \"typo\""));
+    const Read many = read(2000);
+    EXPECT_THAT(describe(many.findings, "f"),
+                HasSubstr("note: frames of one name are compared with each other in up to 1000000 "
+                          "pairs: from \"f\" here on"));
+    EXPECT_EQ(many.findings.all().size(), 2U);
+    EXPECT_THAT(describe(many.findings, "f"), HasSubstr("is named \"typo\""))
+        << "which needs no comparing";
+    EXPECT_TRUE(many.resolved.compounds.front().inputFrames.at(0).isMatched);
+    EXPECT_TRUE(many.resolved.compounds.back().outputFrames.at(0).isMatched);
+}
+
+/// A canvas shows one of its layouts at a time.
+TEST(EqcWarnings, AreNotOfFramesOfOneNameInTwoLayoutsOfACanvas) {
+    const auto read = [](const std::string& second) {
+        return Read(
+            "config { appNode { pipe { window { channel { name \"a\" } channel { name \"b\" } } } "
+            "} "
+            "layout { name \"l\" view {} } layout { name \"m\" view {} } canvas { layout \"l\" "
+            "layout "
+            "\"m\" segment { channel \"a\" } }\n"
+            "compound { compound { channel ( layout \"l\" ) compound { channel \"b\"\n"
+            "outputframe { name \"f\" } } inputframe { name \"f\" } }\n"
+            "compound { channel ( layout \"m\" ) compound { channel \"b\"\n"
+            "outputframe { name \"" +
+            second + "\" } } inputframe { name \"f\" } } } }");
+    };
+    const Read both = read("f");
+    EXPECT_EQ(describe(both.findings, "f"), "");
+    ASSERT_EQ(both.resolved.compounds.size(), 5U);
+    for (const std::size_t taker : {1U, 3U})
+        EXPECT_TRUE(both.resolved.compounds[taker].inputFrames.at(0).isMatched);
+    for (const std::size_t maker : {2U, 4U})
+        EXPECT_TRUE(both.resolved.compounds[maker].outputFrames.at(0).isMatched);
+    EXPECT_THAT(describe(read("g").findings, "f"),
+                HasSubstr("the outputframe \"f\" is never drawn"))
+        << "the other layout's is no help";
+}
+
 TEST(EqcWarnings, SayInWhichFramesNothingIsDrawn) {
     const auto found = [](const std::string& children) {
         return describe(
@@ -437,6 +506,23 @@ TEST(EqcWarnings, NameBothPlacesOfANameThatTwoThingsHave) {
               "that\n"
               "f:5:29: warning: another view is named \"v\" already, at 5:11; the name finds "
               "that\n");
+}
+
+/// As in Equalizer, whose reader has one, which each block adds to.
+TEST(EqcWarnings, SayWhichAppNodeAnotherIsAddedTo) {
+    const Read read(
+        "config {\n appNode { name \"a\" pipe { name \"p\" } }\n node { name \"n\" }\n"
+        " appNode { host \"viz\" pipe { name \"q\" } } }");
+    EXPECT_EQ(describe(read.findings, "f"),
+              "f:4:2: warning: there is an appNode already, at 2:2: what is here is added to it; "
+              "call other machines 'node'\n");
+    ASSERT_EQ(read.configuration.nodes.size(), 2U);
+    const Node& node = read.configuration.nodes[0];
+    EXPECT_EQ(node.name, "a");
+    EXPECT_EQ(node.host, "viz");
+    ASSERT_EQ(node.pipes.size(), 2U);
+    EXPECT_EQ(node.pipes[1].name, "q");
+    EXPECT_FALSE(read.configuration.nodes[1].isApplication);
 }
 
 TEST(EqcWarnings, SayThatALayoutIsOnItsCanvasAlready) {

@@ -255,6 +255,31 @@ TEST(ConfigurationKeeper, TakesUpWhatWasSetBeforeOfAGivenConfiguration) {
     EXPECT_EQ(active->state().views[0][0].modelUnit, .3048);
 }
 
+/// Every name that it tells leads back to what it is of.
+TEST(ConfigurationKeeper, TellsCanvasesSegmentsAndLayoutsOfOneNameApart) {
+    config::Findings findings;
+    const config::Configuration given = config::readEqc(
+        "config { appNode { pipe { window { channel { name \"a\" } } } } "
+        "layout { name \"plain\" view { } } layout { name \"plain\" view { } } "
+        "canvas { name \"wall\" layout 0 segment { channel \"a\" } } "
+        "canvas { name \"wall\" layout 0 layout 1 segment { name \"1\" channel \"a\" } "
+        "segment { channel \"a\" } segment { name \"1\" channel \"a\" } } "
+        "canvas { name \"3\" layout 0 segment { channel \"a\" } } "
+        "canvas { layout 0 segment { channel \"a\" } } }",
+        findings);
+    EXPECT_FALSE(findings.hasErrors()) << describe(findings, "test");
+    ConfigurationKeeper keeper(given, "", [] {});
+    std::vector<std::string> names;
+    for (const CanvasStatus& canvas : keeper.canvases()) names.push_back(canvas.name);
+    EXPECT_THAT(names, ElementsAre("wall", "1", "3", "#3"));
+    EXPECT_THAT(keeper.canvases()[1].segments, ElementsAre("1", "#1", "2"));
+    EXPECT_THAT(keeper.canvases()[1].layouts, ElementsAre("plain", "1"));
+    EXPECT_EQ(keeper.canvases()[1].layout, "plain");
+    ASSERT_TRUE(keeper.configure({"1", "1"}).ok());
+    EXPECT_EQ(keeper.canvases()[0].layout, "plain");
+    EXPECT_EQ(keeper.canvases()[1].layout, "1");
+}
+
 TEST(ConfigurationKeeper, LeavesOutWhatAnEditedConfigurationHasNoMore) {
     KeptConfiguration kept;
     {

@@ -445,6 +445,24 @@ TEST(DivisionCheck, DividesNoDataWhoseDepthsNobodySends) {
                 HasSubstr("cannot divide data"));
 }
 
+/// Each plan resolves all compounds, so that it would take minutes.
+TEST(PlanCheck, SaysWhatItDoesNotTryOfVeryManyLayouts) {
+    const auto found = [](int count) {
+        std::string layouts;
+        std::string shown;
+        for (int i = 0; i < count; ++i) {
+            layouts += "layout { view {} } ";
+            shown += fmt::format("layout {} ", i);
+        }
+        return foundIn("config { appNode { pipe { window { channel { name \"a\" } } } } " +
+                       layouts + "canvas { " + shown + "segment { channel \"a\" } } }");
+    };
+    EXPECT_EQ(found(100), "");
+    EXPECT_EQ(found(1000),
+              "f: note: of 1000 pictures, of each canvas in each of its layouts and in each frame, "
+              "the first 500 were tried: with as many compounds the others would take long\n");
+}
+
 TEST(PlanCheck, WarnsOfWhatOneEyeAloneSeesInStereo) {
     const auto found = [](std::string_view mode, std::string_view segments,
                           std::string_view further) {

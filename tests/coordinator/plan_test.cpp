@@ -229,6 +229,84 @@ TEST(Plan, TakesTheStereoModeOfTheGlobalsInBothSpellings) {
     }
 }
 
+/// A helper's segment in the same place, such as of a canvas that is read back and not shown.
+TEST(Plan, ASegmentThatDrawsNothingHidesNoOther) {
+    for (const char* const task : {"[ READBACK ]", "[ CLEAR ]", "[ ]"}) {
+        const config::Configuration both = room(
+            "layout { view {} } canvas { layout 0 segment { channel \"a\" } segment { channel "
+            "\"b\" } } "
+            "compound { compound { channel ( segment 0 view 0 ) } compound { channel ( segment 1 "
+            "view "
+            "0 ) task " +
+            std::string(task) + " } }");
+        const Plan plan = planned(both, canvasOf(20, 10));
+        ASSERT_EQ(plan.draws.size(), 1U) << task;
+        ASSERT_EQ(plan.pictures.size(), 1U);
+        EXPECT_EQ(plan.pictures[0].parts.size(), 1U) << task;
+        const auto drawn =
+            fabric::makeImage(plan.draws[0].task.pixelViewport, {7, 8, 9, 255}, false);
+        const auto pictures = composePictures(plan, {drawn}, {1, 2, 3, 255});
+        EXPECT_EQ(pictures[0].colour[0], (fabric::Rgba{7, 8, 9, 255})) << task;
+    }
+    const config::Configuration alone = room(
+        "layout { view {} } canvas { layout 0 segment { channel \"a\" viewport [ 0 0 .5 1 ] } "
+        "segment "
+        "{ channel \"b\" } } compound { compound { channel ( segment 0 view 0 ) } compound { "
+        "channel ( "
+        "segment 1 view 0 ) task [ CLEAR ] } }");
+    EXPECT_EQ(planned(alone, canvasOf(20, 10)).pictures[0].parts.size(), 2U)
+        << "no other shows all of its place";
+}
+
+/// One channel that shows both eyes, in a window of these settings.
+config::Configuration stereoIn(const std::string& global, const std::string& window,
+                               const std::string& channel, const std::string& compounds) {
+    config::Findings findings;
+    const config::Configuration read = config::readEqc(
+        "global { " + global + " } server { config { appNode { pipe { window { attributes { " +
+            window + " } viewport [ 0 0 64 48 ] channel { name \"a\" " + channel +
+            " } } } } observer {} layout { view { observer 0 mode STEREO } } canvas { layout 0 "
+            "wall {} segment { channel \"a\" } } " +
+            compounds + " } }",
+        findings);
+    EXPECT_FALSE(findings.hasErrors()) << describe(findings, "test");
+    return read;
+}
+
+/// As Equalizer resolves AUTO.
+TEST(Plan, StereoWindowsHaveAPictureForEachEye) {
+    const auto pictures = [](const std::string& global, const std::string& window,
+                             const std::string& channel = {}, const std::string& compounds = {}) {
+        return planned(stereoIn(global, window, channel, compounds), canvasOf(20, 10))
+            .pictures.size();
+    };
+    const std::string on = "EQ_WINDOW_IATTR_HINT_STEREO ON";
+    EXPECT_EQ(pictures("", ""), 1U);
+    EXPECT_EQ(pictures("", "hint_stereo ON"), 2U);
+    EXPECT_EQ(pictures("", "hint_stereo 1"), 2U);
+    EXPECT_EQ(pictures("", "hint_stereo AUTO"), 1U);
+    EXPECT_EQ(pictures(on, ""), 2U);
+    EXPECT_EQ(pictures(on, "hint_stereo OFF"), 1U) << "the window's own counts";
+    EXPECT_EQ(pictures("", "hint_stereo ON hint_drawable window"), 2U);
+    EXPECT_EQ(pictures("", "hint_stereo ON hint_drawable FBO"), 1U);
+    EXPECT_EQ(pictures(on, "hint_drawable pbuffer"), 1U);
+    EXPECT_EQ(pictures(on + " EQ_WINDOW_IATTR_HINT_DRAWABLE FBO", ""), 1U);
+    EXPECT_EQ(pictures(on + " EQ_WINDOW_IATTR_HINT_DRAWABLE FBO", "hint_drawable window"), 2U);
+    EXPECT_EQ(pictures(on, "", "drawable [ FBO_COLOR FBO_DEPTH ]"), 1U);
+    EXPECT_EQ(pictures(on, "", "",
+                       "compound { channel ( segment 0 view 0 ) attributes { stereo_mode ANAGLYPH "
+                       "} }"),
+              1U)
+        << "as the compound says";
+}
+
+TEST(Plan, StereoWindowsShowTheLeftEyeFirst) {
+    const Plan plan = planned(stereoIn("", "hint_stereo ON", "", ""), canvasOf(20, 10));
+    ASSERT_EQ(plan.pictures.size(), 2U);
+    EXPECT_EQ(plan.pictures[0].eye, Eye::Left);
+    EXPECT_EQ(plan.pictures[1].eye, Eye::Right);
+}
+
 TEST(Plan, EyesOfSegmentsOfTheirOwnArePicturesOfTheirOwn) {
     const config::Configuration passive = room(
         "observer {} layout { view { observer 0 mode STEREO } } canvas { layout 0 wall {} "

@@ -128,7 +128,8 @@ private:
         return made;
     }
     Node node() {
-        Node made{text(), often(), text(), {}, {}, {}, {}};
+        const bool isApplication = often() && all_.nodes.empty();  // there is one
+        Node made{text(), isApplication, text(), {}, {}, {}, {}};
         repeat([&] { made.connections.push_back(connection()); });
         if (often())
             made.attributes.push_back({"launch_command_quote", std::string("'")});

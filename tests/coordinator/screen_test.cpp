@@ -281,6 +281,33 @@ TEST(Screen, OfAProjectorIsBeforeItWhicheverWayItTurns) {
     EXPECT_NEAR(glm::distance(rolled.bottomLeft, fabric::Vec3(1, -1, -1)), 0, 1e-12);
 }
 
+/// All of it and each segment alike: the rectangle on its lower side.
+TEST(Screen, OfAWallThatIsNearlyARectangleIsOne) {
+    const Wall skewed{{-1, -1, -2}, {1, -1, -2}, {-.98, 1, -2}, false};
+    const std::optional<Wall> square = wallOf(Surface(skewed));
+    ASSERT_TRUE(square);
+    EXPECT_EQ(square->bottomLeft, skewed.bottomLeft);
+    EXPECT_EQ(square->bottomRight, skewed.bottomRight);
+    EXPECT_NEAR(glm::distance(square->topLeft, fabric::Vec3(-1, -1 + std::hypot(2, .02), -2)), 0,
+                1e-12);
+    const Read read(
+        "config { appNode { pipe { window { channel { name \"a\" } } } } observer {} layout { view "
+        "{ "
+        "observer 0 } } canvas { layout 0 wall { bottom_left [ -1 -1 -2 ] bottom_right [ 1 -1 -2 ] "
+        "top_left [ -.98 1 -2 ] } segment { channel \"a\" viewport [ 0 0 1 .5 ] } segment { "
+        "channel "
+        "\"a\" viewport [ 0 .5 1 .5 ] } } }");
+    ASSERT_EQ(read.resolved.compounds.size(), 2U);
+    for (const ResolvedCompound& each : read.resolved.compounds) {
+        const auto& sight = each.sights.at(0).sight;
+        ASSERT_TRUE(sight);
+        EXPECT_NEAR(sight->frustum.left, -.5, 1e-12) << "the upper one is not beside the lower";
+        EXPECT_NEAR(sight->frustum.right, .5, 1e-12);
+    }
+    const Wall rounded{{-1, -1, -2}, {1, -1, -2}, {-.999, 1, -2}, false};
+    EXPECT_EQ(wallOf(Surface(rounded)), rounded);
+}
+
 TEST(Screen, ShowsEachEyeOfAStereoView) {
     const Read read = sample("2-window.HMD.eqc");
     ASSERT_EQ(read.resolved.destinations.size(), 2U);
