@@ -41,9 +41,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         line = rest.substr(0, rest.find('\n'));
         rest.remove_prefix(std::min(rest.size(), line.size() + 1));
     }
-    const std::string_view cookie = http::cookieNamed("eyrie_ticket", lines[1]);
-    if (gate.admit({lines[0], cookie}, "fuzz", access::Role::View).ok() ||
-        gate.admit({"", cookie}, "fuzz", access::Role::View).ok())
+    for (const http::TicketCookie& cookie : http::ticketCookies(lines[1]))
+        if (cookie.ticket.empty() ||
+            gate.admit({lines[0], cookie.ticket}, "fuzz", access::Role::View).ok() ||
+            gate.admit({"", cookie.ticket}, "fuzz", access::Role::View).ok())
+            std::abort();
+    if (gate.admit({lines[0], {}}, "fuzz", access::Role::View).ok())
         std::abort();
     if (http::isAllowedOrigin(lines[2], lines[3], true) && lines[2].find("evil") != lines[2].npos)
         std::abort();  // no name but localhost is one of a loopback address

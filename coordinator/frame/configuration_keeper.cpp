@@ -16,28 +16,28 @@
 namespace eyrie::coordinator {
 namespace {
 
-template <typename T>
-std::string nameAt(const std::vector<T>& things, std::size_t i) {
-    return things[i].name.empty() ? fmt::format("{}", i) : things[i].name;
-}
+constexpr std::string_view kNoLayout = "OFF";
 
 std::string layoutName(const config::Configuration& configuration,
                        const std::optional<std::size_t>& layout) {
-    return layout ? nameAt(configuration.layouts, *layout) : "OFF";
+    return layout ? config::called(configuration.layouts, *layout) : std::string(kNoLayout);
 }
 
 std::vector<CanvasStatus> canvasesOf(const ActiveConfiguration& active) {
     const config::Configuration& configuration = active.written();
+    const std::vector<std::string> names = config::allCalled(configuration.canvases);
+    const std::vector<std::string> layouts = config::allCalled(configuration.layouts);
+    const auto nameOf = [&layouts](const std::optional<std::size_t>& layout) {
+        return layout ? layouts[*layout] : std::string(kNoLayout);
+    };
     std::vector<CanvasStatus> canvases;
     for (std::size_t i = 0; i < configuration.canvases.size(); ++i) {
         const config::Canvas& canvas = configuration.canvases[i];
         CanvasStatus& status = canvases.emplace_back();
-        status.name = nameAt(configuration.canvases, i);
-        for (std::size_t segment = 0; segment < canvas.segments.size(); ++segment)
-            status.segments.push_back(nameAt(canvas.segments, segment));
-        for (const auto& layout : canvas.layouts)
-            status.layouts.push_back(layoutName(configuration, layout));
-        status.layout = layoutName(configuration, active.state().layouts[i]);
+        status.name = names[i];
+        status.segments = config::allCalled(canvas.segments);
+        for (const auto& layout : canvas.layouts) status.layouts.push_back(nameOf(layout));
+        status.layout = nameOf(active.state().layouts[i]);
         status.barriers = config::swapBarriers(configuration, i, active.state().layouts[i]);
     }
     return canvases;

@@ -166,7 +166,8 @@ struct RendererStatus {
     bool operator==(const RendererStatus&) const = default;
 };
 
-/// What of the configuration can be seen and switched.
+/// What of the configuration can be seen and switched. Names are those that config::findNamed finds
+/// each by: "#1" where another is called so, or is called "1".
 struct CanvasStatus {
     std::string name;
     std::vector<std::string> segments;

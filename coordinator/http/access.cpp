@@ -16,7 +16,8 @@ namespace {
 
 using access::Role;
 
-constexpr std::string_view kCookie = "eyrie_ticket";
+constexpr std::string_view kCookie = "eyrie_ticket_";  // and the token's mark
+constexpr std::size_t kMaxOwnCookies = 16;
 constexpr std::string_view kApi = "/api/v1";
 
 bool reads(std::string_view method) { return method == "GET" || method == "HEAD"; }
@@ -54,30 +55,59 @@ std::optional<Role> roleFor(std::string_view method, std::string_view path) {
     return reads(method) ? std::nullopt : std::optional(Role::Admin);
 }
 
-std::string_view cookieNamed(std::string_view name, std::string_view header) {
+std::vector<TicketCookie> ticketCookies(std::string_view header) {
+    std::vector<TicketCookie> cookies;
     while (!header.empty()) {
         const std::size_t end = std::min(header.find(';'), header.size());
         std::string_view pair = header.substr(0, end);
         header.remove_prefix(std::min(end + 1, header.size()));
         pair.remove_prefix(std::min(pair.find_first_not_of(' '), pair.size()));
-        if (pair.starts_with(name) && pair.substr(name.size()).starts_with('='))
-            return pair.substr(name.size() + 1);
+        const std::size_t equals = pair.find('=');
+        if (equals == pair.npos || equals + 1 == pair.size() ||
+            !pair.substr(0, equals).starts_with(kCookie))
+            continue;
+        cookies.push_back({pair.substr(0, equals), pair.substr(equals + 1)});
     }
-    return {};
+    return cookies;
+}
+
+/// Those of this server's own tokens by their marks, at most 16: what is to be verified.
+std::vector<TicketCookie> Access::ownCookies(const Asked& asked) const {
+    std::vector<TicketCookie> cookies = ticketCookies(asked.cookie);
+    std::erase_if(cookies, [this](const TicketCookie& cookie) {
+        return !gate_->hasMark(cookie.name.substr(kCookie.size()));
+    });
+    cookies.resize(std::min(cookies.size(), kMaxOwnCookies));
+    return cookies;
+}
+
+bool Access::isKnown(const TicketCookie& cookie) const {
+    return gate_->roleOf({{}, cookie.ticket}).has_value();
+}
+
+/// Where none is known, any other of its own, which is turned away as such. Not looked for where a
+/// token is shown.
+std::string_view Access::ticketOf(const Asked& asked) const {
+    if (!asked.authorization.empty())
+        return {};
+    const std::vector<TicketCookie> cookies = ownCookies(asked);
+    if (cookies.empty())
+        return {};
+    const auto known = std::ranges::find_if(
+        cookies, [this](const TicketCookie& cookie) { return isKnown(cookie); });
+    return known == cookies.end() ? cookies.front().ticket : known->ticket;
 }
 
 absl::StatusOr<Role> Access::admit(const Asked& asked, Role needed) {
     if (gate_ == nullptr)
         return Role::Admin;
-    return gate_->admit({asked.authorization, cookieNamed(kCookie, asked.cookie)}, asked.address,
-                        needed);
+    return gate_->admit({asked.authorization, ticketOf(asked)}, asked.address, needed);
 }
 
 Role Access::roleOf(const Asked& asked) {
     if (gate_ == nullptr)
         return Role::Admin;
-    return gate_->roleOf({asked.authorization, cookieNamed(kCookie, asked.cookie)})
-        .value_or(Role::View);
+    return gate_->roleOf({asked.authorization, ticketOf(asked)}).value_or(Role::View);
 }
 
 std::optional<Response> Access::answer(const Asked& asked, const coordinator::FrameSource& frames) {
@@ -97,7 +127,7 @@ std::optional<Response> Access::answer(const Asked& asked, const coordinator::Fr
     if (path == "/login")
         return login(asked);
     if (path == "/readyz" && gate_ != nullptr && asked.authorization.empty() &&
-        !gate_->roleOf({{}, cookieNamed(kCookie, asked.cookie)}))
+        !gate_->roleOf({{}, ticketOf(asked)}))
         return readyResponse(isReady(frames.status()));
     const std::optional<Role> needed = roleFor(asked.method, path);
     if (!needed)
@@ -110,7 +140,7 @@ Response Access::login(const Asked& asked) {
     if (asked.method == "DELETE") {
         Response gone;
         gone.status = 204;
-        gone.headers.emplace_back("Set-Cookie", cookieOf("", std::chrono::seconds(0)));
+        forgetKnown(asked, {}, gone);
         return gone;
     }
     const bool isPost = asked.method == "POST";
@@ -124,15 +154,30 @@ Response Access::login(const Asked& asked) {
         return refusalOf(role.status());
     Response response =
         jsonResponse(200, fmt::format("{{\"role\":\"{}\"}}\n", access::nameOf(*role)));
-    if (isPost && gate_ != nullptr && !asked.authorization.empty())
-        response.headers.emplace_back(
-            "Set-Cookie",
-            cookieOf(access::Gate::ticketFor(asked.authorization), access::Gate::kTicketLife));
+    if (isPost && gate_ != nullptr && !asked.authorization.empty()) {
+        const std::string name =
+            fmt::format("{}{}", kCookie, access::Gate::markFor(asked.authorization));
+        forgetKnown(asked, name, response);  // so that this one counts
+        response.headers.emplace_back("Set-Cookie",
+                                      cookieOf(name, access::Gate::ticketFor(asked.authorization),
+                                               access::Gate::kTicketLife));
+    }
     return response;
 }
 
-std::string Access::cookieOf(std::string_view ticket, std::chrono::seconds life) const {
-    return fmt::format("{}={}; Path=/; Max-Age={}; HttpOnly; SameSite=Strict{}", kCookie, ticket,
+/// All `but` that of this name.
+void Access::forgetKnown(const Asked& asked, std::string_view but, Response& response) const {
+    if (gate_ == nullptr)
+        return;
+    for (const TicketCookie& cookie : ownCookies(asked))
+        if (cookie.name != but && isKnown(cookie))
+            response.headers.emplace_back("Set-Cookie",
+                                          cookieOf(cookie.name, "", std::chrono::seconds(0)));
+}
+
+std::string Access::cookieOf(std::string_view name, std::string_view ticket,
+                             std::chrono::seconds life) const {
+    return fmt::format("{}={}; Path=/; Max-Age={}; HttpOnly; SameSite=Strict{}", name, ticket,
                        life.count(), isSecure_ ? "; Secure" : "");
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "access/gate.h"
 #include "coordinator/http/router.h"
@@ -27,6 +28,17 @@ struct Asked {
 /// other change, also of paths that are not known here, `admin`.
 std::optional<access::Role> roleFor(std::string_view method, std::string_view path);
 
+/// A cookie of a sign-in, at this server or at another of its host.
+struct TicketCookie {
+    std::string_view name;
+    std::string_view ticket;
+
+    bool operator==(const TicketCookie&) const = default;
+};
+
+/// Those of a Cookie header that are not empty, in their order.
+std::vector<TicketCookie> ticketCookies(std::string_view header);
+
 /// Who comes in by HTTP. A program sends `Authorization: Bearer TOKEN` with every request. A page
 /// sends it once, with POST /login, and gets a cookie: its scripts cannot read that, no other site
 /// can have it sent (SameSite), and it stands for the token without telling it. Tokens are taken
@@ -35,6 +47,10 @@ std::optional<access::Role> roleFor(std::string_view method, std::string_view pa
 ///   GET /login     200 {"role":"view"}; 401: a token is needed
 ///   POST /login    the same, and a cookie for 12 hours; anybody's page but this server's gets 403
 ///   DELETE /login  204; the browser forgets the cookie
+///
+/// Browsers send a host's cookies to all its ports and paths, where other servers may be, with
+/// other tokens: each cookie has its token's mark (ticket.h) in its name, and only those with marks
+/// of this server's tokens are looked at, and taken away.
 ///
 /// Used on the server's thread only.
 class Access {
@@ -55,14 +71,16 @@ public:
 private:
     absl::StatusOr<access::Role> admit(const Asked& asked, access::Role needed);
     Response login(const Asked& asked);
-    std::string cookieOf(std::string_view ticket, std::chrono::seconds life) const;
+    std::vector<TicketCookie> ownCookies(const Asked& asked) const;
+    bool isKnown(const TicketCookie& cookie) const;
+    std::string_view ticketOf(const Asked& asked) const;
+    void forgetKnown(const Asked& asked, std::string_view but, Response& response) const;
+    std::string cookieOf(std::string_view name, std::string_view ticket,
+                         std::chrono::seconds life) const;
 
     const std::shared_ptr<access::Gate> gate_;
     const bool localNamesOnly_;
     const bool isSecure_;
 };
-
-/// The value of cookie `name` in a Cookie header; empty: absent.
-std::string_view cookieNamed(std::string_view name, std::string_view header);
 
 }  // namespace eyrie::http

@@ -25,7 +25,11 @@ Reply headersOf(const Response& response) {
     reply.set("X-Content-Type-Options", "nosniff");
     reply.set("Referrer-Policy", "no-referrer");
     reply.set("Cross-Origin-Resource-Policy", "same-origin");
-    for (const auto& [name, value] : response.headers) reply.set(name, value);
+    for (const auto& [name, value] : response.headers)
+        if (name == "Set-Cookie")
+            reply.insert(name, value);  // browsers take one cookie from each
+        else
+            reply.set(name, value);
     return reply;
 }
 

@@ -98,6 +98,10 @@ std::string Gate::ticketFor(std::string_view authorization, Clock::time_point no
     return makeTicket(bearerToken(authorization), unixSeconds(now + kTicketLife));
 }
 
+std::string Gate::markFor(std::string_view authorization) {
+    return markOf(bearerToken(authorization));
+}
+
 Refusals Gate::refusals(Door door) const {
     const std::lock_guard lock(mutex_);
     return refusals_[static_cast<std::size_t>(door)];

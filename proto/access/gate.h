@@ -71,6 +71,11 @@ public:
     static std::string ticketFor(std::string_view authorization,
                                  Clock::time_point now = Clock::now());
 
+    /// What tells tickets for that token from those for others (ticket.h).
+    static std::string markFor(std::string_view authorization);
+    /// Whether it is that of one of the tokens.
+    bool hasMark(std::string_view mark) const { return tokens()->hasMark(mark); }
+
     /// The first token of that role, for who shows it to others; empty: there is none.
     std::string tokenOf(Role role) const { return std::string(tokens()->first(role)); }
 

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kDigestBytes = 32;
 constexpr std::size_t kMaxTicketBytes = 96;
+constexpr std::size_t kMarkDigits = 8;
 using Digest = std::array<unsigned char, kDigestBytes>;
 
 Digest sha256(std::string_view text) {
@@ -22,16 +23,24 @@ Digest sha256(std::string_view text) {
     return digest;
 }
 
-}  // namespace
-
-std::string makeTicket(std::string_view secret, std::int64_t expires) {
-    const std::string text = fmt::format("eyrie ticket {}", expires);
+/// HMAC-SHA256 of a text, in hexadecimal.
+std::string signedBy(std::string_view secret, std::string_view text) {
     Digest digest{};
     HMAC(EVP_sha256(), secret.data(), static_cast<int>(secret.size()),
          reinterpret_cast<const unsigned char*>(text.data()), text.size(), digest.data(), nullptr);
-    std::string ticket = fmt::format("{}.", expires);
-    for (const unsigned char byte : digest) ticket += fmt::format("{:02x}", byte);
-    return ticket;
+    std::string signature;
+    for (const unsigned char byte : digest) signature += fmt::format("{:02x}", byte);
+    return signature;
+}
+
+}  // namespace
+
+std::string makeTicket(std::string_view secret, std::int64_t expires) {
+    return fmt::format("{}.{}", expires, signedBy(secret, fmt::format("eyrie ticket {}", expires)));
+}
+
+std::string markOf(std::string_view secret) {
+    return signedBy(secret, "eyrie ticket's mark").substr(0, kMarkDigits);
 }
 
 std::optional<std::int64_t> expiryOf(std::string_view ticket) {

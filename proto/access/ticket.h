@@ -13,6 +13,10 @@ namespace eyrie::access {
 /// without it, and nothing has to be remembered: it outlives a restart, and ends with the secret.
 std::string makeTicket(std::string_view secret, std::int64_t expires);
 
+/// Eight hexadecimal digits that tell tickets for one secret from those for others, and nothing of
+/// the secret.
+std::string markOf(std::string_view secret);
+
 /// When a ticket says that it expires; nothing: it has another form.
 std::optional<std::int64_t> expiryOf(std::string_view ticket);
 

@@ -151,6 +151,7 @@ absl::Status Tokens::add(std::string_view line, std::string_view place) {
     Token& token = tokens_.emplace_back();
     token.role = *role;
     token.secret.assign(secret);
+    marks_.insert(markOf(secret));
     return absl::OkStatus();
 }
 

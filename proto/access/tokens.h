@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +49,9 @@ public:
     /// 1970.
     std::optional<Role> roleOfTicket(std::string_view ticket, std::int64_t now) const;
 
+    /// Whether it is that of a secret (ticket.h): only tickets that came with it can be for one.
+    bool hasMark(std::string_view mark) const { return marks_.contains(mark); }
+
     /// The first secret of that role; empty: there is none.
     std::string_view first(Role role) const;
 
@@ -58,6 +63,7 @@ private:
     absl::Status add(std::string_view line, std::string_view place);
 
     std::vector<Token> tokens_;
+    std::set<std::string, std::less<>> marks_;
 };
 
 }  // namespace eyrie::access

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who comes in by HTTP, to do what.
 #include <cstddef>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -15,7 +18,9 @@ namespace eyrie::http {
 namespace {
 
 using access::Role;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Not;
 
 TEST(HttpRoles, LookingIsForViewersAndWhatIsNotKnownForAdministrators) {
@@ -37,13 +42,107 @@ TEST(HttpRoles, LookingIsForViewersAndWhatIsNotKnownForAdministrators) {
     EXPECT_EQ(roleFor("POST", "/anything"), Role::Admin);
 }
 
-TEST(HttpCookies, AreFoundByTheirWholeName) {
-    EXPECT_EQ(cookieNamed("a", "a=1; b=2"), "1");
-    EXPECT_EQ(cookieNamed("b", "a=1; b=2"), "2");
-    EXPECT_EQ(cookieNamed("b", "ab=1;b=2"), "2");
-    EXPECT_EQ(cookieNamed("b", "a=b=1"), "");
-    EXPECT_EQ(cookieNamed("b", "b"), "");
-    EXPECT_EQ(cookieNamed("b", ";;b="), "");
+TEST(HttpCookies, AreFoundByTheirNames) {
+    const TicketCookie one{"eyrie_ticket_0a", "2=3"};
+    const TicketCookie other{"eyrie_ticket_0b", "1"};
+    EXPECT_THAT(ticketCookies("a=1; eyrie_ticket_0b=1; b=2"), ElementsAre(other));
+    EXPECT_THAT(ticketCookies("eyrie_ticket_0a=2=3;eyrie_ticket_0b=1"), ElementsAre(one, other));
+    for (const char* none :
+         {"", "eyrie_ticket_0a", "eyrie_ticket=1", ";;eyrie_ticket_0a=;", "a=eyrie_ticket_0a=1",
+          "my_eyrie_ticket_0a=1", "eyrie_tickets=1", "=1"})
+        EXPECT_THAT(ticketCookies(none), IsEmpty()) << none;
+}
+
+/// What a browser keeps and sends to every port of a host.
+class Jar {
+public:
+    int ask(Access& server, std::string_view method, const std::string& token = "") {
+        const std::string authorization = token.empty() ? "" : "Bearer " + token;
+        const std::string cookies = header();
+        Asked asked{method, "/login", authorization, cookies};
+        asked.address = "10.0.0.1";
+        const std::optional<Response> response = server.answer(asked, frames_);
+        for (const auto& [name, value] : response->headers)
+            if (name == "Set-Cookie")
+                take(value);
+        return response->status;
+    }
+    Role roleAt(Access& server) const {
+        const std::string cookies = header();
+        return server.roleOf({"GET", "/", {}, cookies});
+    }
+    std::size_t size() const { return cookies_.size(); }
+
+private:
+    void take(const std::string& value) {
+        const std::size_t equals = value.find('=');
+        const std::string name = value.substr(0, equals);
+        if (value.find("Max-Age=0;") != std::string::npos)
+            cookies_.erase(name);
+        else
+            cookies_[name] = value.substr(equals + 1, value.find(';') - equals - 1);
+    }
+    std::string header() const {
+        std::string text;
+        for (const auto& [name, value] : cookies_) text += fmt::format("{}={}; ", name, value);
+        return text;
+    }
+
+    std::map<std::string, std::string> cookies_;
+    coordinator::FakeFrameSource frames_;
+};
+
+std::shared_ptr<access::Gate> gateFor(const std::string& tokens) {
+    return std::make_shared<access::Gate>(*access::Tokens::parse(tokens, "t"));
+}
+
+TEST(HttpCookies, OfServersOfOneHostLeaveEachOtherAlone) {
+    const auto gate = gateFor(fmt::format("admin {}\n", kAdminToken));
+    Access one(gate, false, false);
+    Access other(gateFor(fmt::format("view {}\n", kViewToken)), false, false);
+    Jar browser;
+    EXPECT_EQ(browser.ask(one, "POST", kAdminToken), 200);
+    EXPECT_EQ(browser.ask(other, "POST", kViewToken), 200);
+    EXPECT_EQ(browser.ask(one, "GET"), 200);
+    EXPECT_EQ(browser.ask(other, "GET"), 200);
+    EXPECT_EQ(browser.roleAt(one), Role::Admin);
+    EXPECT_EQ(gate->refusals(access::Door::Http), access::Refusals{});
+    EXPECT_EQ(browser.ask(one, "DELETE"), 204);
+    EXPECT_EQ(browser.ask(one, "GET"), 401);
+    EXPECT_EQ(gate->refusals(access::Door::Http).missing, 1U) << "what is another's is not its own";
+    EXPECT_EQ(browser.ask(other, "GET"), 200);
+}
+
+TEST(HttpCookies, OfOneServerAreFoundAmongThoseOfManyOthers) {
+    const auto gate = gateFor(fmt::format("admin {}\n", kAdminToken));
+    Access server(gate, false, false);
+    const auto cookieFor = [](const std::string& token) {
+        const std::string authorization = "Bearer " + token;
+        return fmt::format("eyrie_ticket_{}={}; ", access::Gate::markFor(authorization),
+                           access::Gate::ticketFor(authorization));
+    };
+    std::string others;
+    for (int i = 0; i < 50; ++i) others += cookieFor(fmt::format("{}{}", kViewToken, i));
+    for (const std::string& cookies :
+         {cookieFor(kAdminToken) + others, others + cookieFor(kAdminToken)})
+        EXPECT_EQ(server.roleOf({"GET", "/", {}, cookies}), Role::Admin);
+    EXPECT_EQ(server.roleOf({"GET", "/", {}, others}), Role::View);
+}
+
+TEST(HttpCookies, OfTheNewestSignInCount) {
+    Access server(gateFor(fmt::format("view {}\nadmin {}\n", kViewToken, kAdminToken)), false,
+                  false);
+    Jar browser;
+    for (const auto& [token, role] : {std::pair{kViewToken, Role::View},
+                                      {kAdminToken, Role::Admin},
+                                      {kViewToken, Role::View},
+                                      {kViewToken, Role::View}}) {
+        EXPECT_EQ(browser.ask(server, "POST", token), 200);
+        EXPECT_EQ(browser.roleAt(server), role);
+        EXPECT_EQ(browser.size(), 1U);
+    }
+    EXPECT_EQ(browser.ask(server, "DELETE"), 204);
+    EXPECT_EQ(browser.size(), 0U);
 }
 
 TEST_F(HttpAccess, WithoutAGateEverybodyMayDoEverything) {
@@ -138,6 +237,20 @@ TEST_F(HttpAccess, ACookieStandsForATokenAndDoesNotTellIt) {
               401);
     EXPECT_THAT(ask(request("DELETE", "/login", cookie)), HasSubstr("Max-Age=0"));
     EXPECT_EQ(statusOf(request("GET", "/metrics", "Cookie: eyrie_ticket=1.2\r\n")), 401);
+}
+
+TEST_F(HttpAccess, SigningInWithAnotherTokenTakesTheCookieOfTheOneBeforeAway) {
+    start();
+    const auto cookieIn = [](const std::string& answer) {
+        const std::size_t begin = answer.find("Set-Cookie: eyrie_ticket_") + 12;
+        return answer.substr(begin, answer.find(';', begin) - begin);
+    };
+    const std::string first = cookieIn(ask(request("POST", "/login", bearer(kViewToken))));
+    const std::string answer =
+        ask(request("POST", "/login", "Cookie: " + first + "\r\n" + bearer(kControlToken)));
+    EXPECT_THAT(answer, HasSubstr(fmt::format("Set-Cookie: {}; Path=/; Max-Age=0;",
+                                              first.substr(0, first.find('=') + 1))));
+    EXPECT_THAT(answer, HasSubstr("; Path=/; Max-Age=43200; HttpOnly; SameSite=Strict"));
 }
 
 TEST_F(HttpAccess, PagesOfOtherSitesChangeNothingWithTheUsersCookie) {

@@ -20,7 +20,9 @@ TEST(Named, ThingsAreFoundByTheirNamesOrElseTheirPositions) {
     EXPECT_EQ(*findNamed(things, "thing", "#1"), 1U);
     EXPECT_EQ(*findNamed(things, "thing", "left"), 3U);
     EXPECT_EQ(*findNamed(things, "thing", "2"), 2U);
-    EXPECT_FALSE(findNamed(things, "thing", "#4").ok());
+    for (const char* none :
+         {"", "#", "#4", "4", "#01", "01", "+1", " 1", "1 ", "-0", "18446744073709551617"})
+        EXPECT_FALSE(findNamed(things, "thing", none).ok()) << none;
     EXPECT_EQ(called(things, 0), "1");
     EXPECT_EQ(called(things, 1), "#1") << "as \"1\" is another's name";
     EXPECT_EQ(called(things, 2), "2") << "as another is the first of that name";
@@ -35,6 +37,8 @@ RC_GTEST_PROP(Named, WhatAThingIsCalledLeadsToIt, ()) {
         things.push_back({each});
     for (std::size_t i = 0; i < things.size(); ++i)
         RC_ASSERT(*findNamed(things, "thing", called(things, i)) == i);
+    const std::vector<std::string> all = allCalled(things);
+    for (std::size_t i = 0; i < things.size(); ++i) RC_ASSERT(all[i] == called(things, i));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "coordinator/stream/drawing.h"
+#include "coordinator/stream/view_message.h"
 #include "eyrie/v1/look.pb.h"
 #include "eyrie/v1/viewer.pb.h"
 #include "tests/coordinator/fake_frame_source.h"
@@ -54,6 +55,16 @@ TEST(DrawnSides, AreOneEyesWhereAPictureHasBoth) {
     EXPECT_EQ(sides({0, 0, 640, 720}), std::pair(640, 360));
     request.shown.front().eye = compound::Eye::Left;
     EXPECT_EQ(sides({0, 0, 640, 360}), std::pair(640, 360));
+}
+
+TEST(Viewer, HasPicturesOfAtMost4096PixelsASideOfAnEye) {
+    v1::ViewRequest message = viewMessage(1, 1).view();
+    message.set_width(1'000'000'000);
+    message.set_height(4097);
+    const absl::StatusOr<ViewRequest> view = viewFromMessage(message);
+    ASSERT_TRUE(view.ok()) << view.status();
+    EXPECT_EQ(view->frame.width, 4096);
+    EXPECT_EQ(view->frame.height, 4096);
 }
 
 TEST(SessionState, SaysWhichHeightsAreExaggerated) {

@@ -25,6 +25,7 @@ import { showTerrain } from "./panel/terrain";
 import { setUpToolbar } from "./panel/toolbar";
 import { keepAddress, showViews } from "./panel/views";
 import { joiningOf, misreadJoining, socketUrl } from "./place";
+import { onUnknown } from "./protocol/ask";
 import { State } from "./state";
 import { PictureCanvas } from "./view/canvas";
 import { Viewer } from "./viewer";
@@ -68,6 +69,7 @@ function start(): void {
   keepCover(state, canvas);
   keepDescription(state, canvas);
   exposeHooks(state, viewer);
+  onUnknown(signInAgain);
   state.connection.watch(({ kind }) => {
     if (kind === "lost") void signInAgain();
     else if (kind === "connected") signedIn();

@@ -91,5 +91,14 @@ TEST(Ticket, StandsForItsSecretUntilItExpires) {
         EXPECT_EQ(tokens.roleOfTicket(forged, 0), std::nullopt) << forged;
 }
 
+TEST(Ticket, MarksTellSecretsApartAndNothingOfThem) {
+    const std::string mark = markOf(kView);
+    EXPECT_EQ(mark, markOf(kView));
+    EXPECT_NE(mark, markOf(std::string(kView) + "x"));
+    EXPECT_EQ(mark.size(), 8U);
+    EXPECT_EQ(mark.find_first_not_of("0123456789abcdef"), std::string::npos);
+    EXPECT_THAT(makeTicket(kView, 1000), Not(HasSubstr(mark)));
+}
+
 }  // namespace
 }  // namespace eyrie::access

@@ -163,6 +163,18 @@ describe("the wheel and drags", () => {
     expect(drag()).toEqual(pan(camera, 30, -10, 300));
   });
 
+  it("zoom by as much as fingers on a trackpad spread", () => {
+    aim = undefined;
+    const pinch = (deltaY: number): Camera | undefined => {
+      send("wheel", { deltaMode: 0, deltaY, ctrlKey: true });
+      return moved;
+    };
+    expect(pinch(-100 * Math.log(1.25))?.eye[1]).toBeCloseTo(camera.eye[1] / 1.25);
+    expect(pinch(120)).toEqual(zoom(camera, Math.exp(0.5), 0, -50, 300, limits));
+    send("wheel", { deltaMode: 1, deltaY: 3, ctrlKey: true }); // a mouse's, for sure
+    expect(moved).toEqual(zoom(camera, Math.exp(99 * 0.0015), 0, -50, 300, limits));
+  });
+
   it("go by the view that they are on in another", () => {
     aim = { x: 7, y: -9, perPixel: { x: 2, y: 3 } };
     expect(wheel()).toEqual(zoom(camera, Math.exp(-0.15), 7, -9, 300, limits));

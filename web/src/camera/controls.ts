@@ -41,6 +41,10 @@ const zoomPerKey = 0.9;
 /** Of the wheel: one notch of a mouse is about 100 pixels, and zooms by a seventh. */
 const zoomPerWheelPixel = 0.0015;
 const largestWheelStep = 240;
+/** Of a trackpad's pinch, which comes as a wheel with Ctrl: the scene follows the fingers. */
+const zoomPerPinchPixel = 0.01;
+/** A mouse's wheel turned with Ctrl cannot be told from a pinch, and is not to leap. */
+const largestPinchStep = 50;
 const pixelsPerLine = 33;
 
 /** A hand that clicks moves the pointer by no more, in CSS pixels. */
@@ -214,9 +218,13 @@ export class Controls {
   private wheel(event: WheelEvent): void {
     event.preventDefault();
     const unit = event.deltaMode === 0 ? 1 : event.deltaMode === 1 ? pixelsPerLine : this.height;
-    const step = Math.max(-largestWheelStep, Math.min(largestWheelStep, event.deltaY * unit));
+    const isPinch = event.ctrlKey && event.deltaMode === 0;
+    const [most, perPixel] = isPinch
+      ? [largestPinchStep, zoomPerPinchPixel]
+      : [largestWheelStep, zoomPerWheelPixel];
+    const step = Math.max(-most, Math.min(most, event.deltaY * unit));
     const { x, y } = this.aimAt({ x: event.clientX, y: event.clientY });
-    this.zoomBy(Math.exp(step * zoomPerWheelPixel), x, y, event.timeStamp);
+    this.zoomBy(Math.exp(step * perPixel), x, y, event.timeStamp);
   }
 
   private get looksAround(): boolean {

@@ -45,11 +45,23 @@ const stereos: readonly Option[] = [
   ["top-bottom", "One above the other"],
 ];
 
-/** By name or position, as the server finds it. */
-function canvasOf(canvases: readonly CanvasState[], name: string): CanvasState | undefined {
-  if (name === "") return canvases[0];
-  return canvases.find((canvas) => canvas.name === name) ?? canvases[Number(name)];
+/** The position of what is called `name`, as the server finds it: "#1" is always a position. */
+function positionOf(names: readonly string[], name: string): number {
+  const position = names.findIndex((_, i) => `#${i}` === name);
+  const named = position >= 0 ? position : names.indexOf(name);
+  return named >= 0 ? named : names.findIndex((_, i) => String(i) === name);
 }
+
+/** By name or position; undefined: there is none. */
+export function canvasOf(canvases: readonly CanvasState[], name: string): CanvasState | undefined {
+  if (name === "") return canvases[0];
+  const names = canvases.map((canvas) => canvas.name);
+  return canvases[positionOf(names, name)];
+}
+
+/** What the list of a canvas's segments calls the one that is seen; "" is all of them. */
+export const segmentOf = (canvas: CanvasState | undefined, name: string): string =>
+  canvas?.segments[positionOf(canvas.segments, name)] ?? "";
 
 /** Somebody configured screens: it is not all made of the renderers there are. */
 const hasScreens = (canvases: readonly CanvasState[], seen: CanvasState | undefined): boolean =>
@@ -100,7 +112,7 @@ export function showDisplays(state: State, viewer: Viewer): void {
     canvas.offer(named(canvases.map(({ name }) => name)), seen?.name ?? "");
     segment.offer(
       (seen?.segments.length ?? 0) < 2 ? [] : [["", "All"], ...named(seen?.segments ?? [])],
-      output.value.segment,
+      segmentOf(seen, output.value.segment),
     );
     eye.offer(isConfigured || output.value.eye !== "" ? eyes : [], output.value.eye);
     stereo.offer(isConfigured || output.value.stereo !== "" ? stereos : [], output.value.stereo);

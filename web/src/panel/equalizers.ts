@@ -269,6 +269,7 @@ export function showEqualizers(state: State): void {
     problem.textContent = "";
     tuneEqualizer(position, change).catch(complain).then(show, complain);
   };
+  let isAsking = false; // for reports, which may last until somebody gives a token
   const showReports = async (): Promise<void> => {
     const all = equalizersOf(compoundsOf(await readConfiguration(true)));
     if (isUnread) {
@@ -281,7 +282,11 @@ export function showEqualizers(state: State): void {
   };
   // A server that does not answer is told of elsewhere.
   window.setInterval(() => {
-    if (details.open && !document.hidden) showReports().catch(() => undefined);
+    if (!details.open || document.hidden || isAsking) return;
+    isAsking = true;
+    showReports()
+      .catch(() => undefined)
+      .finally(() => (isAsking = false));
   }, 1000);
   details.addEventListener("toggle", () => {
     problem.textContent = "";

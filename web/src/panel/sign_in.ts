@@ -10,6 +10,7 @@ const reasons: Record<Exclude<Entry, "ok">, string> = {
   needed: "This server wants a token. Who runs it has one for you.",
   wrong: "The server does not know this token, or no longer.",
   limited: "Too many wrong tokens came from here; wait a minute.",
+  unkept: "This browser keeps no cookie of this server; allow that, and give the token again.",
 };
 
 /** The token in the page's address, which leaves the address and the history at once. */
@@ -29,7 +30,7 @@ function showEmpty(isEmpty: boolean): void {
 }
 
 const entry = new Value<Entry>("needed");
-let isLooking = false; // whether the server wants a token again
+let again: Promise<void> | undefined; // while the server may want a token again
 const show = async (token?: string): Promise<void> => entry.set(await logIn(loginUrl, token));
 
 /** Asks for a token until the server takes one, given here or by `entry` becoming another. */
@@ -79,16 +80,19 @@ export async function signIn(): Promise<void> {
   showEmpty(false);
 }
 
-/**
- * Asks for a token where the server, lost before, wants one again, as after a cookie's life. The
- * page stays as it is beneath, with what is not kept of it, and connects again by itself.
- */
-export async function signInAgain(): Promise<void> {
-  if (isLooking || entry.value !== "ok") return; // or it is asking already
-  isLooking = true;
+async function lookAgain(): Promise<void> {
   await show();
-  isLooking = false;
   if (entry.value !== "ok") await askForToken();
+}
+
+/**
+ * Asks for a token where the server wants one again, as after a cookie's life; who asks meanwhile
+ * waits for the same. The page stays as it is beneath, with what is not kept of it, and connects
+ * again by itself.
+ */
+export function signInAgain(): Promise<void> {
+  again ??= lookAgain().finally(() => (again = undefined));
+  return again;
 }
 
 /** The server has let this browser in, perhaps for what another tab showed it. */

@@ -50,6 +50,22 @@ describe("logging in", () => {
     expect(await logIn("/login", "aZ09-._~+/=")).toBe("ok");
   });
 
+  it("knows a right token of which the browser keeps nothing", async () => {
+    const asked = vi.fn((_url: string, init?: RequestInit) =>
+      Promise.resolve(new Response(null, { status: init?.method === "POST" ? 200 : 401 })),
+    );
+    vi.stubGlobal("fetch", asked);
+    expect(await logIn("/login", "secret")).toBe("unkept");
+    expect(asked.mock.calls[1]).toEqual(["/login", { cache: "no-store" }]);
+  });
+
+  it("takes a right token for kept where the server is away right after it", async () => {
+    vi.stubGlobal("fetch", (_url: string, init?: RequestInit) =>
+      init?.method === "POST" ? Promise.resolve(new Response()) : Promise.reject(new Error("away")),
+    );
+    expect(await logIn("/login", "secret")).toBe("ok");
+  });
+
   it("leaves a server that is away, or knows no tokens, to the stream", async () => {
     answering(404);
     expect(await logIn("/login")).toBe("ok");

@@ -2,8 +2,11 @@
 // Who the user is to the server. A token is sent once, with POST /login; the cookie that comes back
 // is out of reach of scripts, and the token is kept nowhere.
 
-/** "ok", or why the server is not to be had: it wants a token, or the one it got is wrong. */
-export type Entry = "ok" | "needed" | "wrong" | "limited";
+/**
+ * "ok", or why the server is not to be had: it wants a token, or the one it got is wrong, or is
+ * right and the browser keeps no cookie for it.
+ */
+export type Entry = "ok" | "needed" | "wrong" | "limited" | "unkept";
 
 export interface Fragment {
   token: string | undefined;
@@ -30,6 +33,10 @@ function entryOf(status: number, hadToken: boolean): Entry {
 /** Of a bearer token (RFC 6750): with others, such as typographic quotes, fetch throws. */
 const tokenCharacters = /^[\w.~+/=-]*$/;
 
+/** A token that was right lets in what comes after it only where the browser keeps its cookie. */
+const kept = async (url: string): Promise<Entry> =>
+  (await logIn(url)) === "needed" ? "unkept" : "ok";
+
 /** Shows the token, or, without one, asks whether the browser is let in already. */
 export async function logIn(url: string, token?: string): Promise<Entry> {
   if (token !== undefined && !tokenCharacters.test(token)) return "wrong";
@@ -40,6 +47,7 @@ export async function logIn(url: string, token?: string): Promise<Entry> {
         ? { cache: "no-store" }
         : { method: "POST", headers: { Authorization: `Bearer ${token}` } },
     );
+    if (token !== undefined && response.ok) return await kept(url);
     return entryOf(response.status, token !== undefined);
   } catch {
     return "ok"; // not reached: the stream waits for the server and says so

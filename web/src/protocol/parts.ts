@@ -37,7 +37,7 @@ export interface Arrival {
   picture: EncodedPicture | undefined;
 }
 
-/** No picture of 4096 x 4096 pixels is larger. */
+/** No picture is larger: 4096 x 4096 pixels an eye, two eyes at most, three bytes a pixel. */
 const mostBytes = 2 ** 27;
 
 const types = { jpeg: "image/jpeg", png: "image/png", h264: "video/h264" } as const;
