@@ -206,6 +206,8 @@ private:
     void write() {
         if (isClosing_ || viewer_ == nullptr)
             return;
+        if (viewer_->isReplaced())
+            return end();
         if (viewer_->isClosed())
             return closedByProgram();
         if (isWriting_)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -38,11 +39,12 @@ struct LastGiven {
 class Seat {
 public:
     /// `messageReady` is called without locks held but the seat's own.
-    Seat(std::uint64_t number, Role joinedAs, bool isController, std::optional<int> framesInFlight,
-         std::function<void()> messageReady)
+    Seat(std::uint64_t number, Role joinedAs, bool isController, std::string viewerName,
+         std::optional<int> framesInFlight, std::function<void()> messageReady)
         : id(number),
           role(joinedAs),
           mayControl(isController),
+          viewer(std::move(viewerName)),
           outbox(framesInFlight),
           messageReady_(std::move(messageReady)) {}
 
@@ -77,8 +79,10 @@ public:
     void close();
 
     const std::uint64_t id;  ///< among those of the session, from 1
-    const Role role;
+    Role role;
     const bool mayControl;
+    const std::string viewer;              ///< Joining's
+    std::atomic<bool> isReplaced = false;  ///< its viewer has come again: this one is to end
     const std::chrono::system_clock::time_point joined = std::chrono::system_clock::now();
     Outbox outbox;
     QualityControl quality;

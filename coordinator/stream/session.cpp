@@ -12,9 +12,9 @@ Session::Session(coordinator::FrameSource& frames, std::string name, const Sessi
     : impl_(std::make_unique<Impl>(frames, std::move(name), options, std::move(id))) {}
 Session::~Session() = default;
 
-std::shared_ptr<Seat> Session::join(Role role, bool mayControl,
+std::shared_ptr<Seat> Session::join(Role role, bool mayControl, const std::string& viewer,
                                     std::function<void()> messageReady) {
-    return impl_->join(role, mayControl, std::move(messageReady));
+    return impl_->join(role, mayControl, viewer, std::move(messageReady));
 }
 void Session::show(Seat& seat, OwnScreen screen) { impl_->show(seat, std::move(screen)); }
 void Session::ready(Seat& seat, std::uint64_t swap) { impl_->ready(seat, swap); }

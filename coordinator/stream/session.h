@@ -109,8 +109,10 @@ public:
     Session& operator=(const Session&) = delete;
 
     /// A place in the session; null once the last viewer has left. Who may not control neither
-    /// switches layouts nor takes the lead.
-    std::shared_ptr<Seat> join(Role role, bool mayControl, std::function<void()> messageReady);
+    /// switches layouts nor takes the lead. `viewer` is Joining's: a place taken under the same
+    /// before is replaced (Seat::isReplaced), and its viewer told.
+    std::shared_ptr<Seat> join(Role role, bool mayControl, const std::string& viewer,
+                               std::function<void()> messageReady);
 
     /// With the last one, of which this is true, the threads end soon, without waiting for them.
     bool leave(const std::shared_ptr<Seat>& seat);

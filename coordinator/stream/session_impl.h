@@ -41,7 +41,8 @@ public:
     Impl(coordinator::FrameSource& frames, std::string name, const SessionOptions& options,
          std::string id);
     ~Impl();
-    std::shared_ptr<Seat> join(Role role, bool mayControl, std::function<void()> messageReady);
+    std::shared_ptr<Seat> join(Role role, bool mayControl, const std::string& viewer,
+                               std::function<void()> messageReady);
     bool leave(const std::shared_ptr<Seat>& seat);
     void want(Seat& seat, ViewRequest view);
     absl::Status change(const ViewChange& change);
@@ -72,6 +73,7 @@ private:
 
     // ---- With mutex_ held. What takes the lock may give it up meanwhile.
 
+    std::shared_ptr<Seat> replace(const std::shared_ptr<Seat>& seat);
     bool freePlace(const std::shared_ptr<Seat>& seat);
     bool wantNow(const ViewRequest& view);
     void setProblem(std::string& problem, std::string value);

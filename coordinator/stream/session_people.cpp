@@ -46,18 +46,43 @@ Session::Impl::~Impl() {
         statistics_->ended(id_, number_);
 }
 
-std::shared_ptr<Seat> Session::Impl::join(Role role, bool mayControl,
+std::shared_ptr<Seat> Session::Impl::join(Role role, bool mayControl, const std::string& viewer,
                                           std::function<void()> messageReady) {
-    const std::lock_guard lock(mutex_);
-    if (isStopping_)
+    std::shared_ptr<Seat> seat, replaced;
+    {
+        const std::lock_guard lock(mutex_);
+        if (isStopping_)
+            return nullptr;
+        seat = std::make_shared<Seat>(++lastSeat_, role, mayControl, viewer, framesInFlight_,
+                                      std::move(messageReady));
+        replaced = replace(seat);
+        if (replaced == nullptr)
+            seats_.push_back(seat);
+        if (leader_ == nullptr && role == Role::Lead)
+            leader_ = seat.get();
+        isStateStale_ = true;
+        changed_.notify_all();
+    }
+    if (replaced != nullptr)
+        replaced->tell();
+    return seat;
+}
+
+/// Gives it the place of who came before under the same name; null: nobody did.
+std::shared_ptr<Seat> Session::Impl::replace(const std::shared_ptr<Seat>& seat) {
+    const auto found = std::ranges::find_if(seats_, [&seat](const std::shared_ptr<Seat>& each) {
+        return !seat->viewer.empty() && each->viewer == seat->viewer &&
+               each->mayControl == seat->mayControl;
+    });
+    if (found == seats_.end())
         return nullptr;
-    seats_.push_back(std::make_shared<Seat>(++lastSeat_, role, mayControl, framesInFlight_,
-                                            std::move(messageReady)));
-    if (leader_ == nullptr && role == Role::Lead)
-        leader_ = seats_.back().get();
-    isStateStale_ = true;
-    changed_.notify_all();
-    return seats_.back();
+    const std::shared_ptr<Seat> before = std::exchange(*found, seat);
+    seat->role = before->role;
+    if (leader_ == before.get())
+        leader_ = seat.get();
+    leaveGroup(*before);
+    before->isReplaced = true;
+    return before;
 }
 
 bool Session::Impl::leave(const std::shared_ptr<Seat>& seat) {

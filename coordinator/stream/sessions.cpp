@@ -13,6 +13,7 @@ namespace eyrie::stream {
 namespace {
 
 constexpr std::size_t kMaxNameLength = 64;
+constexpr std::string_view kNameRule = "1 to 64 letters, digits, \".\", \"-\" and \"_\"";
 
 bool isName(std::string_view text) {
     return !text.empty() && text.size() <= kMaxNameLength && std::ranges::all_of(text, [](char c) {
@@ -32,16 +33,17 @@ absl::StatusOr<Joining> joiningOf(std::string_view target) {
         const std::string_view field = query.substr(0, query.find('&'));
         query.remove_prefix(std::min(query.size(), field.size() + 1));
         const std::string_view name = field.substr(0, field.find('='));
-        if ((name == "session" || name == "role") && !given.insert(name).second)
+        if ((name == "session" || name == "role" || name == "viewer") && !given.insert(name).second)
             return absl::InvalidArgumentError(
                 fmt::format("{} is in the query twice; give it once", name));
         if (field.starts_with("session=")) {
             joining.session = field.substr(8);
             if (!isName(joining.session))
-                return absl::InvalidArgumentError(
-                    fmt::format("a session's name is 1 to {} letters, digits, \".\", \"-\" and "
-                                "\"_\"",
-                                kMaxNameLength));
+                return absl::InvalidArgumentError(fmt::format("a session's name is {}", kNameRule));
+        } else if (field.starts_with("viewer=")) {
+            joining.viewer = field.substr(7);
+            if (!isName(joining.viewer))
+                return absl::InvalidArgumentError(fmt::format("a viewer's name is {}", kNameRule));
         } else if (field == "role=watch") {
             joining.role = Role::Watch;
         } else if (field.starts_with("role=") && field != "role=lead") {
@@ -71,7 +73,7 @@ Sessions::Joined Sessions::join(const Joining& joining, std::function<void()> me
     if (joining.session.empty()) {
         // Alone, there is nobody else to lead.
         auto own = begin("");
-        return {own, own->join(Role::Lead, joining.mayControl, std::move(messageReady))};
+        return {own, own->join(Role::Lead, joining.mayControl, "", std::move(messageReady))};
     }
     const std::lock_guard lock(mutex_);
     std::weak_ptr<Session>& known = named_[joining.session];
@@ -81,7 +83,8 @@ Sessions::Joined Sessions::join(const Joining& joining, std::function<void()> me
         known = session;
     }
     const Role role = joining.mayControl ? joining.role : Role::Watch;
-    return {session, session->join(role, joining.mayControl, std::move(messageReady))};
+    return {session,
+            session->join(role, joining.mayControl, joining.viewer, std::move(messageReady))};
 }
 
 void Sessions::leave(const Joined& joined) {

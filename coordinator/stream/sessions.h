@@ -19,11 +19,14 @@ struct Joining {
     Role role = Role::Lead;
     /// Otherwise it only watches where others are, and switches no layouts.
     bool mayControl = true;
+    /// Who comes again under the same has the place and the lead of who came before, whose
+    /// connection may not be known to have died yet. Empty: nobody's.
+    std::string viewer = {};
 };
 
-/// What /ws?session=NAME&role=watch|lead asks for; `target` may have more fields. Errors:
-/// InvalidArgument (no name of 1 to 64 letters, digits, ".", "-" and "_", another role, or one of
-/// them twice).
+/// What /ws?session=NAME&role=watch|lead&viewer=NAME asks for; `target` may have more fields.
+/// Errors: InvalidArgument (no name of 1 to 64 letters, digits, ".", "-" and "_", another role, or
+/// one of them twice).
 absl::StatusOr<Joining> joiningOf(std::string_view target);
 
 /// The sessions of one frame source: those with names are there while they have viewers. All

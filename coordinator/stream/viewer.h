@@ -61,6 +61,9 @@ public:
     /// Its session was closed by a program: the connection is to end. messageReady is called then.
     bool isClosed() const { return joined_.session->isClosed(); }
 
+    /// It has come again by another connection: this one is to end. messageReady is called then.
+    bool isReplaced() const { return joined_.seat->isReplaced; }
+
     /// Leaves the session; makes threads end soon, without waiting for them.
     void stop();
 

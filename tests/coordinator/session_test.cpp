@@ -229,6 +229,40 @@ TEST(Session, IsOnlyWatchedByWhoMayNotControl) {
     }));
 }
 
+/// A connection that died without being closed is there for half a minute more.
+TEST(Session, GivesWhoComesAgainItsPlaceAndTheLead) {
+    FakeFrameSource frames;
+    Sessions sessions(frames, moving(2));
+    auto gone = std::make_unique<Browser>(sessions, Joining{"shared", Role::Lead, true, "a-page"});
+    Browser other(sessions, kLead);
+    ASSERT_TRUE(comesToBe(other, 2, false));
+    Browser again(sessions, {"shared", Role::Watch, true, "a-page"});
+    EXPECT_TRUE(comesToBe(again, 2, true));
+    EXPECT_TRUE(gone->viewer().isReplaced());
+    EXPECT_FALSE(again.viewer().isReplaced());
+    gone->look(1);
+    again.look(2);
+    const auto frame = other.nextFrame();
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frame->led_view().sequence(), 2U) << "and not what who is gone still asks for";
+    gone.reset();
+    Browser third(sessions, {"shared", Role::Lead, true, "another-page"});
+    EXPECT_TRUE(comesToBe(third, 3, false));
+    EXPECT_TRUE(isPlace(
+        again.stateWhere([](const v1::SessionState& state) { return state.place().viewers() == 3; })
+            .value_or(v1::SessionState()),
+        3, true));
+}
+
+TEST(Session, GivesNoLeadToWhoMayNotControlUnderTheSameName) {
+    FakeFrameSource frames;
+    Sessions sessions(frames, moving(2));
+    Browser leader(sessions, {"shared", Role::Lead, true, "a-page"});
+    Browser watcher(sessions, {"shared", Role::Lead, false, "a-page"});
+    EXPECT_TRUE(comesToBe(watcher, 2, false));
+    EXPECT_FALSE(leader.viewer().isReplaced());
+}
+
 TEST(Session, IsDrawnAndEncodedOnceForEightViewersOfOneClass) {
     constexpr std::uint64_t kViews = 20;
     FakeFrameSource frames;
@@ -334,8 +368,9 @@ TEST(Session, BeginsAnewUnderTheNameOfOneThatEnded) {
 }
 
 TEST(Joining, IsReadFromTheAddress) {
-    const auto named = joiningOf("/ws?role=watch&other=1&session=a-B_1.x");
+    const auto named = joiningOf("/ws?role=watch&other=1&session=a-B_1.x&viewer=v.1");
     ASSERT_TRUE(named.ok());
+    EXPECT_EQ(named->viewer, "v.1");
     EXPECT_EQ(named->session, "a-B_1.x");
     EXPECT_EQ(named->role, Role::Watch);
     const auto plain = joiningOf("/ws");
@@ -348,7 +383,8 @@ TEST(Joining, IsReadFromTheAddress) {
           std::string("/ws?session=\xc3\xa9"), "/ws?session=" + std::string(65, 'a'),
           std::string("/ws?session=a&role=king"), std::string("/ws?session=a/b"),
           std::string("/ws?session=a&session=b"), std::string("/ws?session=a&x=1&session=a"),
-          std::string("/ws?role=lead&role=watch")})
+          std::string("/ws?role=lead&role=watch"), std::string("/ws?session=a&viewer="),
+          std::string("/ws?session=a&viewer=b&viewer=b")})
         EXPECT_TRUE(absl::IsInvalidArgument(joiningOf(target).status())) << target;
 }
 

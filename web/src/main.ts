@@ -24,7 +24,7 @@ import { showStatus } from "./panel/status";
 import { showTerrain } from "./panel/terrain";
 import { setUpToolbar } from "./panel/toolbar";
 import { keepAddress, showViews } from "./panel/views";
-import { joiningOf, misreadJoining, socketUrl } from "./place";
+import { joiningOf, misreadJoining, newName, socketUrl } from "./place";
 import { onUnknown } from "./protocol/ask";
 import { State } from "./state";
 import { PictureCanvas } from "./view/canvas";
@@ -40,11 +40,13 @@ function start(): void {
   const misread = misreadOutput(window.location.search); // the address is put right below
   state.output.set(outputOf(window.location.search));
   const joining = joiningOf(window.location.search);
-  // Who led before the connection was lost leads again, and nobody else.
+  const self = newName((bytes) => crypto.getRandomValues(bytes));
+  // Who led before the connection was lost leads again, and nobody else; at once, too, where the
+  // server does not know yet that it was lost.
   const url = (): string => {
     const place = state.session.value?.place;
     const role = place === undefined ? joining.role : place.leads ? "lead" : "watch";
-    return socketUrl(window.location.href, { ...joining, role });
+    return socketUrl(window.location.href, { ...joining, role }, self);
   };
   const viewer = new Viewer(canvas, url, state);
   showStatus(state);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { joiningOf, misreadJoining, newSessionName, pageIn, socketUrl } from "./place";
+import { joiningOf, misreadJoining, newName, pageIn, socketUrl } from "./place";
 
 describe("the session that an address names", () => {
   it("is one of its own where nothing is said, or what the server would refuse", () => {
@@ -8,7 +8,7 @@ describe("the session that an address names", () => {
     expect(joiningOf("")).toEqual(own);
     expect(joiningOf("?session=a%20b")).toEqual(own);
     expect(joiningOf(`?session=${"a".repeat(65)}`)).toEqual(own);
-    expect(socketUrl("http://host:8080/#eye=1,2,3", joiningOf(""))).toBe("ws://host:8080/ws");
+    expect(socketUrl("http://host:8080/#eye=1,2,3", joiningOf(""), "v")).toBe("ws://host:8080/ws");
   });
 
   it("is told to be none where the address says something else", () => {
@@ -23,8 +23,8 @@ describe("the session that an address names", () => {
     expect(joiningOf("?session=review")).toEqual({ session: "review", role: "lead" });
     const watching = joiningOf("?eye=left&session=a-1_b.c&role=watch");
     expect(watching).toEqual({ session: "a-1_b.c", role: "watch" });
-    expect(socketUrl("https://host/under/?session=x#y", watching)).toBe(
-      "wss://host/under/ws?session=a-1_b.c&role=watch",
+    expect(socketUrl("https://host/under/?session=x#y", watching, "v")).toBe(
+      "wss://host/under/ws?session=a-1_b.c&role=watch&viewer=v",
     );
   });
 
@@ -38,7 +38,7 @@ describe("the session that an address names", () => {
 
   it("has a name that the server takes, another each time", () => {
     const random = (bytes: Uint8Array) => bytes.map(() => Math.floor(256 * Math.random()));
-    const names = new Set(Array.from({ length: 50 }, () => newSessionName(random)));
+    const names = new Set(Array.from({ length: 50 }, () => newName(random)));
     expect(names.size).toBe(50);
     for (const name of names) expect(joiningOf(`?session=${name}`).session).toBe(name);
   });

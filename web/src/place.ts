@@ -30,12 +30,12 @@ export function misreadJoining(query: string): string {
   return role === "watch" && name === "" ? "The address says role=watch, but no session" : "";
 }
 
-/** /ws beside the page at `page`. */
-export function socketUrl(page: string, { session, role }: Joining): string {
+/** /ws beside the page at `page`. `viewer` is the page's own name: it has its place again by it. */
+export function socketUrl(page: string, { session, role }: Joining, viewer: string): string {
   const url = new URL("ws", page);
   url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
   url.hash = "";
-  url.search = session === "" ? "" : `?session=${session}&role=${role}`;
+  url.search = session === "" ? "" : `?session=${session}&role=${role}&viewer=${viewer}`;
   return url.href;
 }
 
@@ -48,8 +48,8 @@ export function pageIn(page: string, { session, role }: Joining): string {
   return url.href;
 }
 
-/** Hard to guess, easy to read out. */
-export function newSessionName(random: (bytes: Uint8Array) => Uint8Array): string {
+/** Hard to guess, easy to read out: of a session, or of a viewer. */
+export function newName(random: (bytes: Uint8Array) => Uint8Array): string {
   const letters = "abcdefghjkmnpqrstuvwxyz23456789";
   return Array.from(random(new Uint8Array(12)), (byte) => letters[byte % letters.length]).join("");
 }

@@ -2,7 +2,7 @@
 // Who else sees what is seen here, and who moves it.
 import type { FlightDeck } from "../flight/deck";
 import { isKept } from "../flight/store";
-import { newSessionName, pageIn } from "../place";
+import { newName, pageIn } from "../place";
 import type { ViewerPlace } from "../protocol/messages";
 import type { SharedView } from "../share";
 import { encodeView } from "../share";
@@ -59,7 +59,7 @@ export function showSession(state: State, viewer: Viewer, deck: FlightDeck): voi
   );
   const share = button("share-session", "Share this view", "Let others see what you see", () => {
     if (!mayLoseFlight(deck)) return;
-    const session = newSessionName((bytes) => crypto.getRandomValues(bytes));
+    const session = newName((bytes) => crypto.getRandomValues(bytes));
     window.location.assign(sharedPage(window.location.href, session, viewer.sharedView()));
   });
   const link = button("watch-link", "Copy link to watch", "For those who are to watch", () => {
