@@ -14,6 +14,7 @@
 #include <tbb/parallel_pipeline.h>
 
 #include "fabric/status.h"
+#include "renderer/import/lone_posts.h"
 
 namespace eyrie::import {
 namespace {
@@ -31,6 +32,7 @@ struct Strip {
     std::int32_t y = 0;
     terrain::PostRect rect;
     std::vector<float> posts;
+    std::vector<std::size_t> loneOnBorder;  ///< see lone_posts.h
 };
 
 /// One tile's posts, past the grid's end its last column and row.
@@ -141,7 +143,7 @@ private:
                        std::min(kRasterTilePosts, frame.rows - j)};
         strip->posts.resize(static_cast<std::size_t>(strip->rect.columns) *
                             static_cast<std::size_t>(strip->rect.rows));
-        status_ = source_.read(strip->rect, strip->posts.data());
+        status_ = read(*strip);
         if (!status_.ok())
             return nullptr;
         ++next_;
@@ -149,17 +151,32 @@ private:
         return strip;
     }
 
-    void store(const Strip& strip) {
-        terrain::HeightStatistics statistics;
+    absl::Status read(Strip& strip) {
+        RETURN_IF_ERROR(source_.read(strip.rect, strip.posts.data()));
+        ASSIGN_OR_RETURN(strip.loneOnBorder, lonePostsOnBorder(source_, strip.rect, strip.posts));
+        return absl::OkStatus();
+    }
+
+    void store(Strip& strip) {
+        count(strip);
+        dropLonePosts(strip.rect, strip.loneOnBorder, strip.posts);
         for (std::int32_t x = strip.x; x < strip.endX; ++x) {
             if (!isNeeded(x, strip.y))
                 continue;
             auto tile = tileOf(strip, (x - strip.x) * kRasterTileCells);
             model_.relief.add(x, strip.y, tile.get());
-            if (!share_.counted || share_.counted(x, strip.y))
-                countTile(model_.frame, x, strip.y, tile.get(), kRasterTilePosts, statistics);
             model_.heights.write(x, strip.y, std::move(tile));
         }
+    }
+
+    /// The source's posts, lone ones among them.
+    void count(const Strip& strip) {
+        terrain::HeightStatistics statistics;
+        for (std::int32_t x = strip.x; x < strip.endX; ++x)
+            if (isNeeded(x, strip.y) && (!share_.counted || share_.counted(x, strip.y)))
+                countTile(model_.frame, x, strip.y,
+                          strip.posts.data() + (x - strip.x) * kRasterTileCells, strip.rect.columns,
+                          statistics);
         const std::lock_guard lock(statisticsMutex_);
         model_.statistics.add(statistics);
     }

@@ -23,7 +23,8 @@ struct ReadingShare {
     terrain::TileFilter counted = {};
 };
 
-/// Reads `source`, all of it or a share, into `model`: heights, statistics, summary. Its stage is
+/// Reads `source`, all of it or a share, into `model`: heights, statistics, summary. Lone posts
+/// (lone_posts.h) are nodata but in the statistics, which are of the source. Its stage is
 /// HeightSource::readingStage; memory for a few strips of 129 rows. Errors: the source's, the
 /// scratch's, Cancelled.
 absl::Status readElevation(HeightSource& source, const terrain::Scratch& scratch,

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
@@ -238,6 +240,35 @@ TEST_F(DemSource, ReadsEverythingThatIsNoHeightAsNodata) {
     EXPECT_EQ(pattern, "--xxx---");  // -32768 is a height unless the raster has 16 bits
     EXPECT_THAT(dem->findings,
                 testing::ElementsAre(HasSubstr("3.4028235e+38 in column 2 and row 0")));
+}
+
+/// Floats of a raster, which text grids cannot hold; declared to be nodata, the other one, or none.
+TEST_F(DemSource, ReadsInfinitiesAsNodataWhetherDeclaredOrNot) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    const terrain::HeightGrid grid{
+        .columns = 3, .rows = 2, .heights = {1, kInfinity, 2, -kInfinity, 3, 4}};
+    ASSERT_TRUE(writeGeoTiff(grid, folder_.path("infinite.tif")).ok());
+    struct Case {
+        const char* nodata;
+        const char* found;  ///< what was not declared
+    };
+    for (const auto& [nodata, found] :
+         {Case{"", "-inf in column 0 and row 0"},
+          Case{"<NoDataValue>inf</NoDataValue>", "-inf in column 0 and row 0"},
+          Case{"<NoDataValue>-inf</NoDataValue>", "inf in column 1 and row 1"}}) {
+        const auto dem = test::readDem(written(
+            "infinite.vrt",
+            std::string("<VRTDataset rasterXSize=\"3\" rasterYSize=\"2\"><GeoTransform>0, 1, 0, "
+                        "0, 0, -1</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\">") +
+                nodata +
+                "<SimpleSource><SourceFilename relativeToVRT=\"1\">infinite.tif</SourceFilename>"
+                "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>"));
+        ASSERT_TRUE(dem.ok()) << nodata << dem.status();
+        std::string pattern;
+        for (const float h : dem->grid.heights) pattern += std::isnan(h) ? '-' : 'x';
+        EXPECT_EQ(pattern, "x-x-xx") << nodata;
+        EXPECT_THAT(dem->findings, testing::ElementsAre(testing::StartsWith(found))) << nodata;
+    }
 }
 
 TEST_F(DemSource, SaysWhereOnlyScaleOrOffsetMakeHeightsImpossible) {

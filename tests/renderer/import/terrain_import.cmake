@@ -6,6 +6,7 @@ eyrie_test(terrain_bound_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(terrain_seam_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(terrain_normals_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(terrain_nodata_test LABEL unit LINK eyrie_test_terrain)
+eyrie_test(lone_posts_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(terrain_outline_test LABEL unit LINK eyrie_test_terrain eyrie::truth)
 eyrie_test(eyt_damage_test LABEL unit MEMORY LINK eyrie_test_terrain)
 eyrie_test(terrain_import_test LABEL unit LINK eyrie_test_terrain)
@@ -22,7 +23,7 @@ target_link_libraries(eyrie_test_imagery PUBLIC eyrie_test_terrain PRIVATE GDAL:
 eyrie_test(imagery_import_test LABEL unit
            SOURCES imagery_formats_test.cpp imagery_import_test.cpp imagery_places_test.cpp imagery_strips_test.cpp imagery_whole_test.cpp
            LINK eyrie_test_imagery GDAL::GDAL fmt::fmt)
-eyrie_test(terrain_kill_test LABEL unit LINK eyrie_test_imagery)
+eyrie_test(terrain_kill_test LABEL unit LINK eyrie_test_imagery fmt::fmt)
 eyrie_test(file_hash_test LABEL unit LINK eyrie_test_terrain eyrie::test_support)
 eyrie_test(shard_plan_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(whole_file_test LABEL unit LINK eyrie_test_terrain)

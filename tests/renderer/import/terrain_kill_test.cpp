@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Imports whose process is killed, in each of their stages, and what the next one makes of it.
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <random>
+#include <string>
+#include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -162,6 +167,25 @@ INSTANTIATE_TEST_SUITE_P(
                     Moment{"imagery", 0.6, {{"building", kWhole}, {"imagery", 0.3}}},
                     Moment{"imagery", 1, {{"building", kWhole}, {"imagery", 0.9}}}),
     [](const auto& moment) { return std::to_string(moment.index) + "Of" + moment.param.stage; });
+
+/// Of four stages.
+std::vector<Moment> randomMoments() {
+    std::vector<std::string> stages = {"reading",   "measuring", "joining", "building",
+                                       "smoothing", "thinning",  "imagery"};
+    std::mt19937 random(20261130);
+    std::shuffle(stages.begin(), stages.end(), random);
+    stages.resize(4);
+    std::vector<Moment> moments;
+    for (const std::string& stage : stages)
+        moments.push_back({stage, std::uniform_real_distribution<double>(0, 0.9)(random), {}});
+    return moments;
+}
+
+INSTANTIATE_TEST_SUITE_P(RandomMoments, TerrainKill, testing::ValuesIn(randomMoments()),
+                         [](const auto& moment) {
+                             return fmt::format("{}Of{}At{:.0f}Thousandths", moment.index,
+                                                moment.param.stage, 1000 * moment.param.fraction);
+                         });
 
 /// They have the same sizes, and so have the tiles places that would fit.
 TEST_F(TerrainKill, TakesNoTilesOfPicturesThatHaveChanged) {

@@ -44,6 +44,14 @@ bool hasGround(const HeightGrid& grid, std::int32_t i, std::int32_t j) {
     return data >= 3;
 }
 
+/// Whether a post is a corner of ground: between others that are not, nothing is.
+bool isOfGround(const HeightGrid& grid, std::int32_t i, std::int32_t j) {
+    return !std::isnan(grid.at(i, j)) &&
+           (hasGround(grid, i, j) || (i > 0 && hasGround(grid, i - 1, j)) ||
+            (j > 0 && hasGround(grid, i, j - 1)) ||
+            (i > 0 && j > 0 && hasGround(grid, i - 1, j - 1)));
+}
+
 /// What a tile draws.
 class DrawnTile {
 public:
@@ -155,8 +163,8 @@ std::size_t groundBeyond(double metres, const HeightGrid& grid, const TileId& id
     return beyond;
 }
 
-/// Whether a post with data is.
-bool isDataWithin(double metres, const HeightGrid& grid, const Vec3& point) {
+/// Whether a post of ground is.
+bool isGroundWithin(double metres, const HeightGrid& grid, const Vec3& point) {
     const auto at = [](double value, double last) {
         return static_cast<std::int32_t>(std::clamp(value / kPostMetres, 0.0, last));
     };
@@ -164,13 +172,14 @@ bool isDataWithin(double metres, const HeightGrid& grid, const Vec3& point) {
          j <= at(point.y + metres, grid.rows - 1); ++j)
         for (std::int32_t i = at(point.x - metres, grid.columns - 1);
              i <= at(point.x + metres, grid.columns - 1); ++i)
-            if (glm::distance(point, place(i, j, grid.at(i, j))) <= metres)
+            if (glm::distance(point, place(i, j, grid.at(i, j))) <= metres &&
+                isOfGround(grid, i, j))
                 return true;
     return false;
 }
 
 /// Points of what a tile draws over no ground, and posts where it draws, that are farther from
-/// posts with data.
+/// posts of ground.
 std::size_t drawnBeyond(double metres, const HeightGrid& grid, const DrawnTile& tile) {
     constexpr int kSteps = 8;
     std::size_t beyond = 0;
@@ -185,9 +194,10 @@ std::size_t drawnBeyond(double metres, const HeightGrid& grid, const DrawnTile& 
                 const auto i = static_cast<std::int32_t>(std::floor(x));
                 const auto j = static_cast<std::int32_t>(std::floor(y));
                 const bool isPost = x == i && y == j;
-                if (isPost ? std::abs(grid.at(i, j) - point.z) <= metres : hasGround(grid, i, j))
+                if (isPost ? std::abs(grid.at(i, j) - point.z) <= metres && isOfGround(grid, i, j)
+                           : hasGround(grid, i, j))
                     continue;
-                beyond += isDataWithin(metres, grid, point) ? 0 : 1;
+                beyond += isGroundWithin(metres, grid, point) ? 0 : 1;
             }
     return beyond;
 }
@@ -206,6 +216,10 @@ std::vector<Holes> allHoles() {
         {"AllButDiagonals", [](auto i, auto j, auto&) { return (i - j + 310) % 31 > 3; }},
         {"AllButIslands",
          [](auto i, auto j, auto&) { return std::sin(i / 6.0) * std::sin(j / 5.0) < 0.6; }},
+        {"AllButAShoreAndSoundings",
+         [](auto i, auto j, auto&) {
+             return i > 250 + 30 * std::sin(j / 7.0) && (i % 8 != 0 || j % 8 != 0);
+         }},
     };
 }
 
