@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What renderers that die and stop cost: no pixel, and how much time.
 //
-//   build/release/bench/faults EYRIE FILE.eyt|FILE.eym [2D|DB] [KILLS=100] [BRIEF_STOPS=880]
-//                              [LONG_STOPS=20] [FRAMES=10000] [RENDERERS=3] [WIDTHxHEIGHT=320x180]
-//                              [SEED=1]
+//   build/release/bench/faults EYRIE FILE.eyt|FILE.eym [2D|DB|direct-send] [KILLS=100]
+//                              [BRIEF_STOPS=880] [LONG_STOPS=20] [FRAMES=10000] [RENDERERS=3]
+//                              [WIDTHxHEIGHT=320x180] [SEED=1]
 //
 // Draws an orbit again and again, with as many frames in flight as the configuration's latency and
 // one, while renderer processes are killed, or stopped and continued, at

@@ -111,7 +111,7 @@ TEST_F(RendererFaults, OneThatFindsAnotherFileIsRefusedWithBothSums) {
 }
 
 TEST_F(RendererFaults, CostNoPixel) {
-    for (const std::string compound : {"2D", "DB"}) {
+    for (const std::string compound : {"2D", "DB", "direct-send"}) {
         const test::Outcome outcome =
             test::run({EYRIE_FAULTS_BINARY, EYRIE_BINARY, folder_->path("m.eym"), compound, "2",
                        "2", "0", "100", "3", "160x90"},

@@ -57,6 +57,39 @@ TEST_F(Paging, RangesMeetWhereMemoryBinds) {
     EXPECT_GT(apart, 3) << "they should have reached errors of their own";
 }
 
+/// What is nearer of the two pictures, pixel by pixel; of ties the first.
+fabric::Image composed(fabric::Image first, const fabric::Image& second) {
+    for (std::size_t i = 0; i < first.depth.size(); ++i)
+        if (second.depth[i] > first.depth[i]) {
+            first.depth[i] = second.depth[i];
+            first.colour[i] = second.colour[i];
+        }
+    return first;
+}
+
+/// Two renderers that draw a half each.
+TEST_F(Paging, ARendererHoldsWhatItsRangeDraws) {
+    constexpr double kTau = 0.1;
+    const auto plenty = open(scene_.objects[0].path);
+    const ChannelResult all = draw(*plenty, lookingDown(3), Completeness::Complete, kTau);
+    const std::uint64_t whole = plenty->memory().deviceBytes;
+    std::vector<ChannelResult> halves;
+    std::uint64_t bytes = 0;
+    std::uint64_t triangles = 0;
+    for (const fabric::Range& range : {fabric::Range{0, 0.5}, fabric::Range{0.5, 1}}) {
+        const auto renderer = open(scene_.objects[0].path);
+        halves.push_back(draw(*renderer, lookingDown(3), Completeness::Complete, kTau, range));
+        EXPECT_TRUE(halves.back().statistics.complete);
+        EXPECT_LE(halves.back().statistics.tauAchievedPixels, kTau);
+        EXPECT_LT(renderer->memory().deviceBytes, whole * 8 / 10);
+        bytes += renderer->memory().deviceBytes;
+        triangles += halves.back().statistics.triangles;
+    }
+    EXPECT_EQ(triangles, all.statistics.triangles);
+    EXPECT_LT(bytes, whole * 13 / 10);  // coarse tiles and those of the border twice
+    EXPECT_EQ(different(composed(halves[0].image, halves[1].image), all.image), 0U);
+}
+
 TEST_F(Paging, TooLittleMemoryForAPageKeepsTheSceneFromOpening) {
     RendererOptions options;
     options.hostMemoryBytes = 1000;
