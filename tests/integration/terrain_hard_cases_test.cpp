@@ -3,16 +3,19 @@
 // nasty, each held against a double-precision ray cast of its posts. docs/errors.md lists where the
 // other hard cases are tested.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "fabric/frustum.h"
@@ -72,6 +75,22 @@ public:
 
     const HeightGrid& grid() const { return grid_; }
     const terrain::EytIndex& index() const { return file_->index(); }
+
+    /// The forms of vertices that the terrain's tiles have.
+    std::set<int> wordsPerVertex() const {
+        const terrain::Quadtree& quadtree = index().quadtree;
+        std::set<int> forms;
+        for (std::uint32_t number = 0; number < quadtree.tileCount(); ++number) {
+            const terrain::TileId id = quadtree.tileOf(number);
+            if (index().tile(id).triangles == 0)
+                continue;
+            const auto page = file_->readPage(quadtree.pageIndex(id));
+            EXPECT_TRUE(page.ok()) << page.status();
+            if (page.ok())
+                forms.insert((*page)->tile(terrain::Quadtree::placeInPage(id)).wordsPerVertex);
+        }
+        return forms;
+    }
 
     /// World position of a place on the grid, `above` metres over the post before it.
     Vec3 at(double i, double j, double above) const {
@@ -242,6 +261,28 @@ TEST(HardCase7, TilesOfShortAndLongVerticesMeet) {
                        fmt::format("base {} relief {}", base, relief));
 }
 
+/// Hard case 7, in one grid: the deepest sea, a slope of 20 km in two kilometres, and the highest
+/// mountain, of vertices of both forms.
+TEST(HardCase7, OneGridFromTheDeepestSeaToTheHighestMountainKeepsThePromise) {
+    const HeightGrid grid = gridOf(300, 200, [](std::int32_t i, std::int32_t j) {
+        constexpr double kDeepest = -11034;
+        constexpr double kHighest = 8849;
+        const double share = std::clamp((i + j / 9 - 80) / 128.0, 0.0, 1.0);
+        const int rough = (i * i + 3 * j) % 7;
+        return std::clamp(kDeepest + share * (kHighest - kDeepest) + (share < 1 ? rough : -rough),
+                          kDeepest, kHighest);
+    });
+    const auto [lowest, highest] = std::ranges::minmax(grid.heights);
+    EXPECT_EQ(lowest, -11034);
+    EXPECT_EQ(highest, 8849);
+    Scene scene(grid);
+    EXPECT_THAT(scene.wordsPerVertex(), testing::ElementsAre(1, 2));
+    int number = 0;
+    for (const Camera& camera : camerasAround(scene.index().bounds()))
+        for (const double tau : {0.25, 4.0})
+            scene.hold(fmt::format("sea to mountain, camera {}", number++ / 2), camera, tau);
+}
+
 /// Hard case 8: holes of one post, a row on a border, a corner of four tiles, a whole page.
 TEST(HardCase8, NodataIsOpenAndNothingElseIs) {
     HeightGrid grid = gridOf(300, 300, hills);
@@ -344,6 +385,58 @@ TEST(HardCase15, FromOneDegreeTo170TerrainKeepsThePromise) {
         EXPECT_LE(kept.promisedPixels, tau) << fov;
         EXPECT_GT(kept.measured.compared, 1000U) << fov;
     }
+}
+
+/// How many of the pictures' pixels are not alike: of depth, by more than that share of it.
+std::size_t unlike(const fabric::ChannelResult& a, const fabric::ChannelResult& b, float share) {
+    const fabric::PixelViewport whole{0, 0, kWidth, kHeight};
+    const std::vector<float> ofA = truth::depthMetres(a.image, whole);
+    const std::vector<float> ofB = truth::depthMetres(b.image, whole);
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < ofA.size(); ++k) {
+        const bool isAlike =
+            ofA[k] == ofB[k] || std::abs(ofA[k] - ofB[k]) <= share * std::min(ofA[k], ofB[k]);
+        count += isAlike ? 0 : 1;
+    }
+    return count;
+}
+
+/// Hard case 21, drawn: the camera walks in steps of a quarter of a metre, less than a pixel of all
+/// that it sees, past a post to which positions snap. A whole number of posts from the origin its
+/// pictures are those at the origin, bit by bit; anywhere else, but for pixels at outlines. No
+/// picture jumps from the one before.
+TEST(HardCase21, PicturesMoveAsSteadilyFarFromTheOrigin) {
+    const HeightGrid grid = gridOf(300, 300, hills);
+    const std::array<fabric::Vec2, 3> places = {
+        fabric::Vec2(0), {6'400'000, -6'400'000}, {6378137.3, -6356752.7}};
+    std::vector<std::unique_ptr<Scene>> scenes;
+    for (const fabric::Vec2& place : places) {
+        HeightGrid there = grid;
+        there.origin += place;
+        scenes.push_back(std::make_unique<Scene>(std::move(there)));
+    }
+    constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
+    std::size_t mostApart = 0;
+    std::size_t mostMoved = 0;
+    fabric::ChannelResult before;
+    for (int k = 0; k < 80; ++k) {
+        std::array<fabric::ChannelResult, 3> drawn;
+        for (std::size_t n = 0; n < places.size(); ++n) {
+            Camera camera;
+            camera.eye = Vec3(1600 + 0.25 * k, 1200 + 0.125 * k, 2200) + Vec3(places[n], 0);
+            camera.target = camera.eye + Vec3(64, 128, -64);
+            drawn[n] = scenes[n]->draw(camera, 0.25);
+        }
+        EXPECT_EQ(drawn[0].image, drawn[1].image) << "step " << k;
+        mostApart = std::max(mostApart, unlike(drawn[0], drawn[2], 1e-5F));
+        if (k > 0)
+            mostMoved = std::max(mostMoved, unlike(drawn[2], before, 1e-3F));
+        before = drawn[2];
+    }
+    fmt::print("of {} pixels {} are unlike those at the origin, {} unlike those before\n", kPixels,
+               mostApart, mostMoved);
+    EXPECT_LE(mostApart, kPixels / 1000);
+    EXPECT_LE(mostMoved, kPixels / 100);
 }
 
 /// The eye on the surface itself: anything may be promised, but there is a picture.

@@ -12,10 +12,16 @@
 #include <gtest/gtest.h>
 
 #include "fabric/frustum.h"
+#include "fabric/look.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/import/terrain_synth.h"
+#include "renderer/lod/view.h"
 #include "renderer/renderer.h"
+#include "renderer/terrain/eyt_format.h"
 #include "renderer/truth/depth_comparison.h"
+#include "renderer/truth/drawn_terrain.h"
+#include "renderer/truth/shown_surface.h"
+#include "renderer/truth/terrain_promise.h"
 #include "renderer/truth/terrain_ray_caster.h"
 #include "tests/support/renderer.h"
 #include "tests/support/temporary_folder.h"
@@ -36,6 +42,7 @@ protected:
         const std::string file = folder_.path("terrain.eyt");
         const auto report = import::importTerrain(posts, {"synthetic", "", 7}, file, {});
         ASSERT_TRUE(report.ok()) << report.status();
+        file_ = *terrain::EytFile::open(file);
         renderer_ = test::makeRenderer();
         fabric::Scene scene;
         scene.objects.push_back(
@@ -99,25 +106,45 @@ protected:
         return {.eye = eye, .target = eye + fabric::Vec3(1, 1.1, -0.9)};
     }
 
+    /// Of a picture that promises so many pixels. Judged as TerrainPromise judges terrain that is
+    /// not exaggerated: the source is seen at its posts' heights times x, and what is drawn is made
+    /// of the file's triangles at theirs.
     void check(const char* name, double exaggeration, const fabric::Camera& camera,
                const truth::TerrainRayCaster& ground) {
-        const Drawn drawn = draw(camera, 1, {.exaggeration = exaggeration});
+        constexpr double kTau = 1;
+        const Drawn drawn = draw(camera, kTau, {.exaggeration = exaggeration});
+        ASSERT_TRUE(drawn.statistics.complete);
         const double promised = drawn.statistics.tauAchievedPixels;
-        const truth::DepthComparison found =
-            truth::compareDepth(truth::Pinhole(camera, kWidth, kHeight), drawn.depth, ground, 2);
+        fabric::ChannelTask task;
+        task.viewWidth = kWidth;
+        task.viewHeight = kHeight;
+        const auto triangles =
+            truth::DrawnTerrain::of(*file_, lod::TaskViews(camera, task).whole, kTau,
+                                    fabric::exaggerated(fabric::Mat4(1.0), exaggeration));
+        ASSERT_TRUE(triangles.ok()) << triangles.status();
+        const truth::Pinhole judge(camera, kWidth, kHeight);
+        const truth::ShownSurface surface(triangles->triangles(), judge);
+        const truth::ShownPoint shown = [&](double x, double y,
+                                            double depth) -> std::optional<truth::DrawnPoint> {
+            const auto found = surface.at(x, y, depth);
+            if (!found)
+                return std::nullopt;
+            return truth::DrawnPoint{found->point, 0, found->mayHaveDepth, found->isAtEnd};
+        };
+        constexpr double kRaster = truth::TerrainPromise::kRasterPixels;
+        const int edgePixels = static_cast<int>(std::clamp(std::ceil(promised), 1.0, 8.0));
+        const truth::DepthComparison found = truth::compareDepth(
+            judge, drawn.depth, ground, edgePixels, {promised + kRaster, shown});
+        const double measured = triangles->farthestSeen(judge, ground, found.maxPixels);
         fmt::print(
             "{:>8} x {:<6} promised {:.4f} px, measured {:.4f} px, {} pixels, {} holes, {} "
-            "false, {} triangles\n",
-            name, exaggeration, promised, found.maxPixels, found.compared, found.holes,
-            found.falseHits, drawn.statistics.triangles);
-        // Window coordinates are snapped to 1/256 pixel: on ground of slope s the surface is met up
-        // to s / 512 pixels off (terrain_truth_test.cpp). The steepest here is about 3.
-        const double raster = std::max(1.0 / 64, 3 * std::abs(exaggeration) / 256);
-        ASSERT_TRUE(drawn.statistics.complete);
-        EXPECT_LE(found.maxPixels, promised + raster);
-        // A peak drawn out to less than a pixel's width is hit by one ray and missed by those
-        // beside.
-        EXPECT_LE(found.holes + found.falseHits, found.compared / 10000);
+            "false, {} misplaced, {} suspects, {} triangles\n",
+            name, exaggeration, promised, measured, found.compared, found.holes, found.falseHits,
+            found.misplaced, found.suspects, drawn.statistics.triangles);
+        EXPECT_LE(measured, promised + kRaster);
+        EXPECT_EQ(found.holes, 0U);
+        EXPECT_EQ(found.falseHits, 0U);
+        EXPECT_EQ(found.misplaced, 0U);
         EXPECT_GT(found.compared, 2000U) << "near tiles must not vanish";
     }
 
@@ -140,6 +167,7 @@ protected:
 
     test::TemporaryFolder folder_;
     truth::HeightGrid source_;
+    std::shared_ptr<const terrain::EytFile> file_;
     std::unique_ptr<Renderer> renderer_;
     fabric::Box bounds_;
 };

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -111,24 +112,39 @@ TEST_F(RemotePages, MakeTheLocalPicture) {
     EXPECT_EQ(server_->gets(), before + 1) << "the second renderer asks for the header alone";
 }
 
+double inMilliseconds(steady_clock::duration time) {
+    return std::chrono::duration<double, std::milli>(time).count();
+}
+
+/// Which share of all the time was spent in frames that took more than `limit`.
+double shareOfSlow(const std::vector<double>& milliseconds, double limit) {
+    double all = 0;
+    double slow = 0;
+    for (const double time : milliseconds) {
+        all += time;
+        slow += time > limit ? time : 0;
+    }
+    return slow / all;
+}
+
 TEST_P(RemotePages, ThatDoNotComeNeitherStallAFrameNorLeaveAHoleAndHeal) {
     const ChannelResult local = draw(*open(scene_.objects[0].path), Completeness::Complete);
     ASSERT_EQ(uncovered(local), 0U) << "the test wants terrain everywhere";
     const auto renderer = open(url(), false);
     server_->set(GetParam());
     const auto end = steady_clock::now() + seconds(3);
-    std::vector<steady_clock::duration> times;
+    std::vector<double> times;
     while (steady_clock::now() < end) {
         const auto begin = steady_clock::now();
         const ChannelResult result = draw(*renderer, Completeness::Interactive);
-        times.push_back(steady_clock::now() - begin);
+        times.push_back(inMilliseconds(steady_clock::now() - begin));
         EXPECT_EQ(uncovered(result), 0U);
         EXPECT_FALSE(result.statistics.complete);
         EXPECT_GT(result.statistics.pagesMissing, 0U);
         EXPECT_GT(result.statistics.tauAchievedPixels, local.statistics.tauAchievedPixels);
     }
     // Far less than the second that a request waits for.
-    EXPECT_LT(*std::max_element(times.begin(), times.end()), std::chrono::milliseconds(700));
+    EXPECT_LT(*std::max_element(times.begin(), times.end()), 700);
     EXPECT_GE(draw(*renderer, Completeness::Interactive).statistics.pagesFailed, 1U);
     const auto begin = steady_clock::now();
     EXPECT_EQ(uncovered(draw(*renderer, Completeness::Complete)), 0U);
@@ -142,6 +158,17 @@ TEST_P(RemotePages, ThatDoNotComeNeitherStallAFrameNorLeaveAHoleAndHeal) {
         healed = draw(*renderer, Completeness::Interactive);
     }
     expectEqual(local, healed);
+
+    // Frames that waited for the server took longer than those of a good one, which draw more. A
+    // busy machine makes a few of them slow, too.
+    std::vector<double> goodTimes(30);
+    for (double& time : goodTimes) {
+        const auto start = steady_clock::now();
+        draw(*renderer, Completeness::Interactive);
+        time = inMilliseconds(steady_clock::now() - start);
+    }
+    std::sort(goodTimes.begin(), goodTimes.end());
+    EXPECT_LT(shareOfSlow(times, 3 * goodTimes[goodTimes.size() / 2] + 50), 0.2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Moods, RemotePages,
