@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 /// Raise either when an importer makes something else of the same source.
 constexpr int kMeshImporterVersion = 23;
-constexpr int kTerrainImporterVersion = 13;
+constexpr int kTerrainImporterVersion = 14;
 
 std::string lowerCaseEnding(const std::string& path) {
     std::string ending = fs::path(page::withoutQuery(path)).extension().string();

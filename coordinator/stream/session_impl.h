@@ -73,7 +73,8 @@ private:
 
     // ---- With mutex_ held. What takes the lock may give it up meanwhile.
 
-    std::shared_ptr<Seat> replace(const std::shared_ptr<Seat>& seat);
+    bool replace(const std::shared_ptr<Seat>& seat);
+    bool isAwaited(const Seat& seat) const;
     bool freePlace(const std::shared_ptr<Seat>& seat);
     bool wantNow(const ViewRequest& view);
     void setProblem(std::string& problem, std::string value);
@@ -173,8 +174,11 @@ private:
     bool isClosed_ = false;
     bool isStarting_ = false;  ///< a render thread waits for its frame's turn
     Clock::time_point lastRendered_{};
-    Seats seats_;                              ///< in the order in which they came
-    Seat* leader_ = nullptr;                   ///< one of them
+    Seats seats_;                ///< in the order in which they came
+    Seat* leader_ = nullptr;     ///< one of them
+    Seats replaced_;             ///< not of them any more, and to be told
+    std::string awaitedLeader_;  ///< Seat::viewer of who led and left: has an heir
+    Clock::time_point leaderLeft_;
     std::map<std::string, SwapGroup> groups_;  ///< of the seats' barriers
     std::uint64_t lastSeat_ = 0;
     VideoStreams videos_;

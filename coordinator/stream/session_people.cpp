@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,6 +12,9 @@ namespace eyrie::stream {
 namespace {
 
 std::atomic<std::uint64_t> sessionsSoFar{0};
+
+/// For so long who led has the lead again when its connection comes back.
+constexpr std::chrono::seconds kLeadersReturn{60};
 
 }  // namespace
 
@@ -48,41 +53,45 @@ Session::Impl::~Impl() {
 
 std::shared_ptr<Seat> Session::Impl::join(Role role, bool mayControl, const std::string& viewer,
                                           std::function<void()> messageReady) {
-    std::shared_ptr<Seat> seat, replaced;
-    {
-        const std::lock_guard lock(mutex_);
-        if (isStopping_)
-            return nullptr;
-        seat = std::make_shared<Seat>(++lastSeat_, role, mayControl, viewer, framesInFlight_,
-                                      std::move(messageReady));
-        replaced = replace(seat);
-        if (replaced == nullptr)
-            seats_.push_back(seat);
-        if (leader_ == nullptr && role == Role::Lead)
-            leader_ = seat.get();
-        isStateStale_ = true;
-        changed_.notify_all();
-    }
-    if (replaced != nullptr)
-        replaced->tell();
+    const std::lock_guard lock(mutex_);
+    if (isStopping_)
+        return nullptr;
+    const auto seat = std::make_shared<Seat>(++lastSeat_, role, mayControl, viewer, framesInFlight_,
+                                             std::move(messageReady));
+    if (!replace(seat))
+        seats_.push_back(seat);
+    const bool isBack = isAwaited(*seat);
+    if (isBack)
+        awaitedLeader_.clear();
+    if (isBack || (leader_ == nullptr && role == Role::Lead))
+        leader_ = seat.get();
+    isStateStale_ = true;
+    changed_.notify_all();
     return seat;
 }
 
-/// Gives it the place of who came before under the same name; null: nobody did.
-std::shared_ptr<Seat> Session::Impl::replace(const std::shared_ptr<Seat>& seat) {
+/// Whether it led before its connection was lost, and nobody has taken the lead since.
+bool Session::Impl::isAwaited(const Seat& seat) const {
+    return !seat.viewer.empty() && seat.viewer == awaitedLeader_ && seat.mayControl &&
+           Clock::now() - leaderLeft_ <= kLeadersReturn;
+}
+
+/// Gives it the place of who came before under the same name; false: nobody did.
+bool Session::Impl::replace(const std::shared_ptr<Seat>& seat) {
     const auto found = std::ranges::find_if(seats_, [&seat](const std::shared_ptr<Seat>& each) {
         return !seat->viewer.empty() && each->viewer == seat->viewer &&
                each->mayControl == seat->mayControl;
     });
     if (found == seats_.end())
-        return nullptr;
+        return false;
     const std::shared_ptr<Seat> before = std::exchange(*found, seat);
     seat->role = before->role;
     if (leader_ == before.get())
         leader_ = seat.get();
     leaveGroup(*before);
     before->isReplaced = true;
-    return before;
+    replaced_.push_back(before);
+    return true;
 }
 
 bool Session::Impl::leave(const std::shared_ptr<Seat>& seat) {
@@ -102,6 +111,9 @@ bool Session::Impl::freePlace(const std::shared_ptr<Seat>& seat) {
     if (leader_ == seat.get()) {
         const auto heir = std::ranges::find(seats_, Role::Lead, &Seat::role);
         leader_ = heir == seats_.end() ? nullptr : heir->get();
+        const Clock::time_point now = Clock::now();
+        if (awaitedLeader_.empty() || now - leaderLeft_ > kLeadersReturn)
+            awaitedLeader_ = seat->viewer, leaderLeft_ = now;
     }
     leaveGroup(*seat);
     isStateStale_ = true;
@@ -193,6 +205,7 @@ void Session::Impl::takeLead(Seat& seat) {
         return;
     if (seat.mayControl) {
         leader_ = &seat;
+        awaitedLeader_.clear();
         seat.problem.clear();
         seat.refusal.clear();
         isStateStale_ = true;
@@ -340,7 +353,7 @@ void Session::Impl::waitForChange(std::unique_lock<std::mutex>& lock,
 
 /// Wakes whoever has something to do now.
 void Session::Impl::tell(std::unique_lock<std::mutex>& lock) {
-    Seats ready;
+    Seats ready = std::exchange(replaced_, {});
     if (!isStopping_)
         std::ranges::copy_if(seats_, std::back_inserter(ready), [](const auto& seat) {
             return seat->outbox.hasMessage(Clock::now());

@@ -34,14 +34,16 @@ std::int64_t blockBytesOfColumn(const Dataset& heights) {
 }
 
 /// How many columns GDAL's cache holds two rows of blocks of: what is read at once may end within
-/// blocks. All, where files are stored in rows.
+/// blocks. All, where wider files are stored in rows; of blocks without room those of the widest.
 std::int32_t columnsHeld(const std::vector<DemLayer>& layers, std::int32_t all) {
     std::int64_t ofColumns = 0, ofEdge = 0;  // bytes
+    std::int64_t widestBlock = 1, widestRow = 0;
     for (const DemLayer& layer : layers) {
         std::int64_t ofFiles = 0;
         for (const DemFile& file : layer.files) {
+            widestBlock = std::max<std::int64_t>(widestBlock, file.blockColumns);
             if (file.blockColumns >= file.columns)
-                return all;
+                widestRow = std::max<std::int64_t>(widestRow, file.columns);
             const std::int64_t ofFile = std::int64_t{file.blockRows} * file.valueBytes;
             ofFiles = std::max(ofFiles, ofFile);
             ofEdge = std::max(ofEdge, ofFile * file.blockColumns);
@@ -49,7 +51,9 @@ std::int32_t columnsHeld(const std::vector<DemLayer>& layers, std::int32_t all) 
         ofColumns += ofFiles + blockBytesOfColumn(layer.joined) + blockBytesOfColumn(layer.warped);
     }
     const std::int64_t room = std::int64_t{kGdalCacheBytes} / 2 - ofEdge;
-    return static_cast<std::int32_t>(std::clamp<std::int64_t>(room / ofColumns, 1, all));
+    const std::int64_t held =
+        std::clamp<std::int64_t>(room / ofColumns, std::min<std::int64_t>(widestBlock, all), all);
+    return widestRow > held ? all : static_cast<std::int32_t>(held);
 }
 
 /// `out` rows from the last to the first where the raster's first row is the frame's last.

@@ -23,7 +23,7 @@ std::string journalPath(const std::string& scratchPath) {
 }  // namespace
 
 std::uint64_t stagesKey(const PartIdentity& identity, std::uint32_t shard) {
-    constexpr std::uint64_t kVersion = 9;  // raise it when scratch or journal change
+    constexpr std::uint64_t kVersion = 10;  // raise it when scratch or journal change
     return XXH64(&identity, sizeof identity, kVersion << 32 | shard);
 }
 

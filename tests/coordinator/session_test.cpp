@@ -254,6 +254,25 @@ TEST(Session, GivesWhoComesAgainItsPlaceAndTheLead) {
         3, true));
 }
 
+TEST(Session, GivesTheLeadBackToWhoLedUnlessSomebodyTookIt) {
+    const Joining led{"shared", Role::Lead, true, "a-page"};
+    for (const bool isTaken : {false, true}) {
+        SCOPED_TRACE(isTaken);
+        FakeFrameSource frames;
+        Sessions sessions(frames, moving(2));
+        auto gone = std::make_unique<Browser>(sessions, led);
+        Browser heir(sessions, kLead);
+        ASSERT_TRUE(comesToBe(heir, 2, false));
+        gone.reset();
+        ASSERT_TRUE(comesToBe(heir, 1, true));
+        if (isTaken)
+            heir.send(leadMessage());
+        Browser again(sessions, led);
+        EXPECT_TRUE(comesToBe(again, 2, !isTaken));
+        EXPECT_TRUE(comesToBe(heir, 2, isTaken));
+    }
+}
+
 TEST(Session, GivesNoLeadToWhoMayNotControlUnderTheSameName) {
     FakeFrameSource frames;
     Sessions sessions(frames, moving(2));
